@@ -1,0 +1,61 @@
+/// Sums that do not depend on the order of their terms, and so not on the number of ranks.
+#pragma once
+
+#include "dem/error.h"
+#include "dem/notation.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace mergel::dem {
+
+/// Sum in fixed point: terms are rounded to a multiple of the quantum and added as
+/// integers.
+///
+/// The quantum is 2^-exponent in the unit of the sum; a term may reach 2^(62-exponent), the
+/// sum 2^64 times that. A larger or undefined term throws NumericalError: it is never
+/// clipped.
+template <int exponent>
+class ExactSum {
+public:
+  void add(double term)
+  {
+    const double scaled = term * scale;
+    if (!(std::abs(scaled) < 0x1p62))
+      throw NumericalError(
+          "a term of a global sum is out of range or undefined: " + std::to_string(term) +
+          " (largest " + std::to_string(0x1p62 / scale) + ")");
+    sum_ += static_cast<std::int64_t>(std::llrint(scaled));
+  }
+  ExactSum& operator+=(const ExactSum& other)
+  {
+    sum_ += other.sum_;
+    return *this;
+  }
+  double value() const { return static_cast<double>(sum_) / scale; }
+  void clear() { sum_ = 0; }
+
+private:
+  static constexpr double scale = static_cast<double>(std::int64_t{1} << exponent);
+  __extension__ typedef __int128 Wide;
+  Wide sum_ = 0;
+};
+
+using ForceSum = ExactSum<50>;  ///< [N]: quantum 9e-16 N, terms below 4,096 N
+using EnergySum = ExactSum<61>; ///< [J]: quantum 4e-19 J, terms below 2 J
+
+/// Order-free sum of vectors.
+struct VectorSum {
+  ForceSum x, y, z;
+
+  void add(const Vec3& a)
+  {
+    x.add(a.x());
+    y.add(a.y());
+    z.add(a.z());
+  }
+  Vec3 value() const { return {x.value(), y.value(), z.value()}; }
+  void clear() { *this = {}; }
+};
+
+} // namespace mergel::dem

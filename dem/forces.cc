@@ -1,0 +1,287 @@
+#include "dem/forces.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace mergel::dem {
+
+namespace {
+
+constexpr std::size_t prefetch_ahead = 16;
+
+Lanes row(const double* four)
+{
+  Lanes r;
+  std::memcpy(&r, four, sizeof r);
+  return r;
+}
+
+/// Four particles, transposed from their records.
+[[gnu::always_inline]] inline End<Lanes> gather(const Body* body, const Index* at)
+{
+  const auto rows = [&](auto member, Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
+    a = row((body[at[0]].*member).data());
+    b = row((body[at[1]].*member).data());
+    c = row((body[at[2]].*member).data());
+    d = row((body[at[3]].*member).data());
+    transpose(a, b, c, d);
+  };
+  End<Lanes> e;
+  Lanes m; // the mass shares the row of the spin
+  rows(&Body::x, e.x.x, e.x.y, e.x.z, e.R);
+  rows(&Body::v, e.v.x, e.v.y, e.v.z, e.S);
+  rows(&Body::omega, e.omega.x, e.omega.y, e.omega.z, m);
+  return e;
+}
+
+/// Force on i and torques of four pairs, one row for each force and torque.
+struct Rows {
+  Lanes f[n_lanes], t_i[n_lanes], t_j[n_lanes];
+};
+
+/// @param F force on i; @param M moment on i. The same force acts on both at the contact
+///   point.
+[[gnu::always_inline]] inline Rows to_rows(const PairMotion<Lanes>& k,
+                                           const Triple<Lanes>& F, const Triple<Lanes>& M)
+{
+  const Triple<Lanes> nF = cross(k.n, F);
+  const Triple<Lanes> t_i = nF * k.a_i + M, t_j = nF * k.a_j - M;
+  Rows r;
+  const auto set = [](Lanes(&out)[n_lanes], const Triple<Lanes>& a) {
+    out[0] = a.x;
+    out[1] = a.y;
+    out[2] = a.z;
+    out[3] = Lanes{};
+    transpose(out[0], out[1], out[2], out[3]);
+  };
+  set(r.f, F);
+  set(r.t_i, t_i);
+  set(r.t_j, t_j);
+  return r;
+}
+
+void add_row(double* four, Lanes a)
+{
+  Lanes sum;
+  std::memcpy(&sum, four, sizeof sum);
+  sum += a;
+  std::memcpy(four, &sum, sizeof sum);
+}
+
+/// Add the lanes to the particles, one after the other: the order of the pairs is the order
+/// of the sums.
+[[gnu::always_inline]] inline void scatter(Load* load, const Index* i, const Index* j,
+                                           int count, const Rows& r)
+{
+  for (int l = 0; l < count; ++l) {
+    add_row(load[i[l]].f.data(), r.f[l]);
+    add_row(load[i[l]].t.data(), r.t_i[l]);
+    add_row(load[j[l]].f.data(), -r.f[l]);
+    add_row(load[j[l]].t.data(), r.t_j[l]);
+  }
+}
+
+/// The four pairs of one block; what is missing at the end repeats the last pair and is not
+/// scattered.
+struct Four {
+  Index i[n_lanes], j[n_lanes];
+  int count;
+};
+
+[[gnu::always_inline]] inline Four four_pairs(const std::vector<Pair>& pairs,
+                                              const std::size_t* which, std::size_t first,
+                                              std::size_t end)
+{
+  Four q;
+  q.count = static_cast<int>(std::min<std::size_t>(n_lanes, end - first));
+  for (int l = 0; l < n_lanes; ++l) {
+    const std::size_t k = first + static_cast<std::size_t>(std::min(l, q.count - 1));
+    const Pair& pair = pairs[which ? which[k] : k];
+    q.i[l] = pair.i;
+    q.j[l] = pair.j;
+  }
+  return q;
+}
+
+void shift_images(const std::vector<Pair>& pairs, const std::size_t* which,
+                  std::size_t first, const Four& q, const PeriodicCell& cell,
+                  Triple<Lanes>& x)
+{
+  for (int l = 0; l < q.count; ++l) {
+    const std::size_t k = first + static_cast<std::size_t>(l);
+    const Vec3 offset = cell.offset(pairs[which ? which[k] : k].shift);
+    x.x[l] += offset.x();
+    x.y[l] += offset.y();
+    x.z[l] += offset.z();
+  }
+}
+
+void prefetch(const Particles& p, Index j)
+{
+  const char* b = reinterpret_cast<const char*>(&p.body[j]);
+  __builtin_prefetch(b);
+  __builtin_prefetch(b + 64);
+  __builtin_prefetch(&p.load[j], 1);
+}
+
+/// Return the lanes that left the yield surface, one at a time.
+void return_lanes(const BondMaterial& b, const BondShape<Lanes>& s, const Lanes& S,
+                  const Mask& yields, const Four& q, const EffectiveLoads<Lanes>& old,
+                  EffectiveLoads<Lanes>& load, BondBlock& h, Particles& p,
+                  PairLosses& losses)
+{
+  for (int l = 0; l < q.count; ++l) {
+    if (!yields[l]) continue;
+    const BondShape<double> shape{s.R_b[l], s.A[l], s.k_n[l], s.k_s[l], s.k_b[l]};
+    const BondReturn r = return_bond(b, shape, b.u_c * S[l], {h.u_p[l], h.intact[l]},
+                                     {old.N[l], lane(old.V, l), lane(old.M, l)},
+                                     {load.N[l], lane(load.V, l), lane(load.M, l)});
+    load.N[l] = r.loads.N;
+    set_lane(load.V, l, r.loads.V);
+    set_lane(load.M, l, r.loads.M);
+    h.u_p[l] = r.state.u_p;
+    h.intact[l] = r.state.intact;
+    ++losses.yielded;
+    losses.plastic.add(r.loss);
+    if (r.state.intact > 0.0) continue;
+    losses.residue.add(r.residue);
+    ++losses.broken;
+    --p.n_bonds[q.i[l]];
+    --p.n_bonds[q.j[l]];
+  }
+}
+
+void add_slip(const Lanes& loss, int count, PairLosses& losses)
+{
+  if (!any(loss != Lanes{})) return;
+  for (int l = 0; l < count; ++l)
+    if (loss[l] != 0.0) losses.slip.add(loss[l]);
+}
+
+} // namespace
+
+void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, double dt,
+                     Particles& p, Bonds& bonds, PairLosses& losses)
+{
+  const bool is_periodic = cell.is_periodic();
+  const std::size_t n = bonds.size();
+  for (std::size_t first = 0; first < n; first += n_lanes) {
+    for (std::size_t a = first + prefetch_ahead; a < first + prefetch_ahead + n_lanes; ++a)
+      if (a < n) prefetch(p, bonds.pairs[a].j);
+
+    const Four q = four_pairs(bonds.pairs, nullptr, first, n);
+    const End<Lanes> i = gather(p.body.data(), q.i);
+    End<Lanes> j = gather(p.body.data(), q.j);
+    if (is_periodic) shift_images(bonds.pairs, nullptr, first, q, cell, j.x);
+    const PairMotion<Lanes> k = pair_motion(i, j, dt);
+
+    BondBlock& h = bonds.blocks[first / n_lanes];
+    const Lanes r = min(i.R, j.R), S = 0.5 * (i.S + j.S);
+
+    // bond
+    const BondShape<Lanes> shape = bond_shape(material.bond, r, k.inv_L);
+    const Triple<Lanes> V = turned(h.V, k), M = turned(h.M, k);
+    EffectiveLoads<Lanes> load{shape.k_n * (k.gap - h.gap_0 - h.u_p),
+                               V + k.du_s * shape.k_s, M + k.dtheta * shape.k_b};
+    const Mask yields = ~is_elastic(material.bond, shape, load) & (h.intact > Lanes{});
+    if (any(yields)) {
+      const EffectiveLoads<Lanes> old{load.N - shape.k_n * k.du_n, V, M};
+      return_lanes(material.bond, shape, S, yields, q, old, load, h, p, losses);
+    }
+    const Mask lives = h.intact > Lanes{};
+    const Triple<Lanes> zero{};
+    h.V = select(lives, load.V, zero);
+    h.M = select(lives, load.M, zero);
+
+    // contact beside it
+    const auto contact =
+        linear_contact(material.contact, linear_stiffness(material.contact, r, k.inv_L),
+                       k.gap, material.contact.g_a * S, k.du_s, turned(h.f_s, k));
+    h.f_s = contact.f_s;
+    add_slip(contact.slip_loss, q.count, losses);
+
+    const Lanes N = select(lives, load.N, Lanes{});
+    const Triple<Lanes> F =
+        k.n * (h.intact * N - contact.f_n) + h.V * h.intact + contact.f_s;
+    scatter(p.load.data(), q.i, q.j, q.count, to_rows(k, F, h.M * h.intact));
+  }
+}
+
+void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell, double dt,
+                        Particles& p, Contacts& contacts, PairLosses& losses)
+{
+  const bool is_periodic = cell.is_periodic();
+  const std::size_t n = contacts.pairs.size();
+
+  // Most candidates do not touch: only those that do, or did, go through the kernel.
+  static thread_local std::vector<std::size_t> touching;
+  touching.clear();
+  for (std::size_t c = 0; c < n; ++c) {
+    if (c + prefetch_ahead < n)
+      __builtin_prefetch(&p.body[contacts.pairs[c + prefetch_ahead].j]);
+    const Pair& pair = contacts.pairs[c];
+    const Body &i = p.body[pair.i], &j = p.body[pair.j];
+    Vec3 r = j.x - i.x;
+    if (is_periodic) r += cell.offset(pair.shift);
+    const double reach = i.R + j.R + material.g_a * (0.5 * (i.S + j.S));
+    if (r.squaredNorm() < reach * reach * (1.0 + 1e-12))
+      touching.push_back(c);
+    else if (contacts.shear[c].f_s != Vec3::Zero()) // opened in this step
+      touching.push_back(c);
+  }
+
+  for (std::size_t first = 0; first < touching.size(); first += n_lanes) {
+    const std::size_t* which = touching.data();
+    const Four q = four_pairs(contacts.pairs, which, first, touching.size());
+    const End<Lanes> i = gather(p.body.data(), q.i);
+    End<Lanes> j = gather(p.body.data(), q.j);
+    if (is_periodic) shift_images(contacts.pairs, which, first, q, cell, j.x);
+    const PairMotion<Lanes> k = pair_motion(i, j, dt);
+
+    Lanes f_s[n_lanes];
+    for (int l = 0; l < n_lanes; ++l)
+      f_s[l] =
+          l < q.count
+              ? row(contacts.shear[which[first + static_cast<std::size_t>(l)]].f_s.data())
+              : Lanes{};
+    transpose(f_s[0], f_s[1], f_s[2], f_s[3]);
+
+    const Lanes r = min(i.R, j.R), S = 0.5 * (i.S + j.S);
+    const auto contact =
+        linear_contact(material, linear_stiffness(material, r, k.inv_L), k.gap,
+                       material.g_a * S, k.du_s, turned({f_s[0], f_s[1], f_s[2]}, k));
+    add_slip(contact.slip_loss, q.count, losses);
+
+    const Triple<Lanes> F = contact.f_s - k.n * contact.f_n;
+    const Rows rows = to_rows(k, F, Triple<Lanes>{});
+    scatter(p.load.data(), q.i, q.j, q.count, rows);
+    for (int l = 0; l < q.count; ++l)
+      contacts.shear[which[first + static_cast<std::size_t>(l)]].f_s =
+          vec3(lane(contact.f_s, l));
+  }
+}
+
+PairEnergy pair_energy(const PairMaterials& material, const PeriodicCell& cell,
+                       const Particles& p, const Bonds& bonds, const Contacts& contacts)
+{
+  PairEnergy e;
+  const auto contact_energy = [&](const Pair& pair, const Vec3& f_s) {
+    const Body &i = p.body[pair.i], &j = p.body[pair.j];
+    const double L = i.R + j.R;
+    const double gap = (j.x + cell.offset(pair.shift) - i.x).norm() - L;
+    const double closed = material.contact.g_a * 0.5 * (i.S + j.S) - gap;
+    if (closed <= 0.0) return 0.0;
+    const auto k = linear_stiffness(material.contact, std::min(i.R, j.R), 1.0 / L);
+    return 0.5 * (k.k_n * closed * closed + f_s.squaredNorm() / k.k_s);
+  };
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    e.bonds += read_bond(bonds, b, p, cell, material.bond).energy;
+    e.contacts += contact_energy(bonds.pairs[b], vec3(lane(bonds.blocks[b / n_lanes].f_s,
+                                                           static_cast<int>(b % n_lanes))));
+  }
+  for (std::size_t c = 0; c < contacts.pairs.size(); ++c)
+    e.contacts += contact_energy(contacts.pairs[c], contacts.shear[c].f_s);
+  return e;
+}
+
+} // namespace mergel::dem

@@ -1,0 +1,40 @@
+/// Forces between particles: one kernel for every pair, bonded or not.
+#pragma once
+
+#include "dem/bonds.h"
+#include "dem/contacts.h"
+#include "dem/exact_sum.h"
+
+namespace mergel::dem {
+
+/// What the pairs of one step dissipate and how many bonds break.
+struct PairLosses {
+  EnergySum slip;    ///< friction [J]
+  EnergySum plastic; ///< plasticity and damage of bonds [J]
+  EnergySum residue; ///< still stored in bonds that broke [J]
+  std::size_t broken = 0;
+  std::size_t yielded = 0; ///< bonds that yielded, summed over steps
+};
+
+/// Stresses of a pair in one place: the bond and the contact beside it.
+struct PairMaterials {
+  BondMaterial bond;
+  LinearMaterial contact;
+};
+
+/// Add force and torque of every bond, then of every contact, to p.load, each in ascending
+/// order, and carry their histories over the step dt [s] that ends now. A bond that breaks
+/// is counted down at both its particles.
+void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, double dt,
+                     Particles& p, Bonds& bonds, PairLosses& losses);
+void add_contact_forces(const LinearMaterial& contact, const PeriodicCell& cell, double dt,
+                        Particles& p, Contacts& contacts, PairLosses& losses);
+
+/// Elastic energy [J] of bonds, and of contacts with those beside the bonds.
+struct PairEnergy {
+  double bonds = 0.0, contacts = 0.0;
+};
+PairEnergy pair_energy(const PairMaterials& material, const PeriodicCell& cell,
+                       const Particles& p, const Bonds& bonds, const Contacts& contacts);
+
+} // namespace mergel::dem

@@ -1,0 +1,144 @@
+/// Four pairs at a time: the arithmetic type of the force kernel.
+///
+/// A kernel is a template over `Real`: with Real = double it is the scalar law that tests
+/// and walls use, with Real = Lanes the same source runs on four pairs. IEEE arithmetic of
+/// a lane does not depend on its neighbours, so a pair gets the same bits in any lane, and
+/// contraction is off in the build.
+#pragma once
+
+#include "dem/notation.h"
+
+#include <cmath>
+#include <type_traits>
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+namespace mergel::dem {
+
+inline constexpr int n_lanes = 4;
+
+using Lanes [[gnu::vector_size(n_lanes * sizeof(double))]] = double;
+/// Result of a lane-wise comparison: all bits set where true.
+using Mask = decltype(Lanes{} < Lanes{});
+
+inline Lanes sqrt(Lanes a)
+{
+#ifdef __AVX__
+  return reinterpret_cast<Lanes>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(a)));
+#else
+  for (int k = 0; k < n_lanes; ++k) a[k] = std::sqrt(a[k]);
+  return a;
+#endif
+}
+inline double sqrt(double a)
+{
+  return std::sqrt(a);
+}
+
+inline bool any(Mask m)
+{
+#ifdef __AVX__
+  return _mm256_movemask_pd(reinterpret_cast<__m256d>(m)) != 0;
+#else
+  return (m[0] | m[1] | m[2] | m[3]) != 0;
+#endif
+}
+inline bool any(bool m)
+{
+  return m;
+}
+
+inline Lanes select(Mask m, Lanes a, Lanes b)
+{
+  return m ? a : b;
+}
+inline double select(bool m, double a, double b)
+{
+  return m ? a : b;
+}
+
+inline Lanes min(Lanes a, Lanes b)
+{
+  return select(a < b, a, b);
+}
+inline double min(double a, double b)
+{
+  return a < b ? a : b;
+}
+
+/// Four rows of four numbers to four columns.
+inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d)
+{
+  using Pick = Mask;
+  const Lanes ab_low = __builtin_shuffle(a, b, Pick{0, 4, 2, 6});
+  const Lanes ab_high = __builtin_shuffle(a, b, Pick{1, 5, 3, 7});
+  const Lanes cd_low = __builtin_shuffle(c, d, Pick{0, 4, 2, 6});
+  const Lanes cd_high = __builtin_shuffle(c, d, Pick{1, 5, 3, 7});
+  a = __builtin_shuffle(ab_low, cd_low, Pick{0, 1, 4, 5});
+  b = __builtin_shuffle(ab_high, cd_high, Pick{0, 1, 4, 5});
+  c = __builtin_shuffle(ab_low, cd_low, Pick{2, 3, 6, 7});
+  d = __builtin_shuffle(ab_high, cd_high, Pick{2, 3, 6, 7});
+}
+
+/// A vector of the kernel: three numbers of type double or Lanes.
+template <class Real>
+struct Triple {
+  Real x, y, z;
+
+  Triple& operator+=(const Triple& b) { return *this = *this + b; }
+  Triple& operator-=(const Triple& b) { return *this = *this - b; }
+  friend Triple operator+(const Triple& a, const Triple& b)
+  {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend Triple operator-(const Triple& a, const Triple& b)
+  {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  friend Triple operator*(const Triple& a, const Real& s)
+  {
+    return {a.x * s, a.y * s, a.z * s};
+  }
+  friend Triple operator*(const Triple& a, double s) requires(!std::is_same_v<Real, double>)
+  {
+    return {a.x * s, a.y * s, a.z * s};
+  }
+  friend Real dot(const Triple& a, const Triple& b)
+  {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  }
+  friend Triple cross(const Triple& a, const Triple& b)
+  {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+};
+
+template <class Condition, class Real>
+Triple<Real> select(const Condition& m, const Triple<Real>& a, const Triple<Real>& b)
+{
+  return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
+}
+
+inline Triple<double> triple(const Vec3& a)
+{
+  return {a.x(), a.y(), a.z()};
+}
+inline Vec3 vec3(const Triple<double>& a)
+{
+  return {a.x, a.y, a.z};
+}
+
+/// One lane of four, and back.
+inline Triple<double> lane(const Triple<Lanes>& a, int k)
+{
+  return {a.x[k], a.y[k], a.z[k]};
+}
+inline void set_lane(Triple<Lanes>& a, int k, const Triple<double>& b)
+{
+  a.x[k] = b.x;
+  a.y[k] = b.y;
+  a.z[k] = b.z;
+}
+
+} // namespace mergel::dem

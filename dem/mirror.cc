@@ -1,0 +1,100 @@
+#include "dem/mirror.h"
+
+#include <stdexcept>
+
+namespace mergel::dem {
+
+namespace {
+
+double image_gap(const Body& b)
+{
+  return 2.0 * (b.x.y() - b.R);
+}
+
+} // namespace
+
+void rebuild_mirror(Mirror& mirror, const Particles& p, double g_a, double skin)
+{
+  std::vector<MirrorPair> pairs;
+  auto old = mirror.pairs.begin();
+  for (Index i = 0; i < p.n_owned; ++i) {
+    while (old != mirror.pairs.end() && old->particle < i) ++old;
+    const bool known = old != mirror.pairs.end() && old->particle == i;
+    const bool near = image_gap(p.body[i]) < (g_a + 2.0 * skin) * p.body[i].S;
+    if (known && (near || old->bond.intact > 0.0))
+      pairs.push_back(*old);
+    else if (near)
+      pairs.push_back({i, 0.0, {0.0, 0.0}});
+  }
+  mirror.pairs = std::move(pairs);
+}
+
+void bond_to_mirror(Mirror& mirror, Particles& p, double limit)
+{
+  if (!mirror.pairs.empty()) throw std::logic_error("this mirror is bonded already");
+  rebuild_mirror(mirror, p, limit, 0.0);
+  for (MirrorPair& m : mirror.pairs) {
+    Body& b = p.body[m.particle];
+    m.gap_0 = image_gap(b);
+    m.bond = {0.0, 1.0};
+    ++p.n_bonds[m.particle];
+    b.omega = {0.0, b.omega.y(), 0.0};
+  }
+}
+
+void add_mirror_forces(const PairMaterials& material, double dt, Particles& p,
+                       Mirror& mirror, PairLosses& losses)
+{
+  EnergySum energy;
+  VectorSum force;
+  for (MirrorPair& m : mirror.pairs) {
+    Body& b = p.body[m.particle];
+    Load& load = p.load[m.particle];
+    if (b.x.y() < 0.0)
+      throw NumericalError("particle " + std::to_string(p.id[m.particle]) +
+                           " passed through the symmetry plane");
+    const double gap = image_gap(b), inv_L = 0.5 / b.R;
+    double pull = 0.0; // towards the image
+
+    if (m.bond.intact > 0.0) {
+      const auto shape = bond_shape(material.bond, b.R, inv_L);
+      EffectiveLoads<double> q{shape.k_n * (gap - m.gap_0 - m.bond.u_p), {}, {}};
+      if (!is_elastic(material.bond, shape, q)) {
+        EffectiveLoads<double> old = q;
+        old.N -= shape.k_n * 2.0 * dt * b.v.y();
+        const BondReturn r =
+            return_bond(material.bond, shape, material.bond.u_c * b.S, m.bond, old, q);
+        q = r.loads;
+        m.bond = r.state;
+        ++losses.yielded;
+        losses.plastic.add(0.5 * r.loss);
+        if (m.bond.intact == 0.0) {
+          losses.residue.add(0.5 * r.residue);
+          ++losses.broken;
+          --p.n_bonds[m.particle];
+        }
+      }
+      pull += m.bond.intact * q.N;
+      energy.add(0.5 * m.bond.intact * spring_energy(shape, q));
+    }
+
+    const double closed = material.contact.g_a * b.S - gap;
+    if (closed > 0.0) {
+      const double k_n = linear_stiffness(material.contact, b.R, inv_L).k_n;
+      pull -= k_n * closed;
+      energy.add(0.25 * k_n * closed * closed);
+    }
+    load.f.y() -= pull;
+    force.add({0.0, -pull, 0.0});
+  }
+  mirror.energy = energy.value();
+  mirror.force = force.value();
+}
+
+void hold_mirror_spin(const Mirror& mirror, Particles& p)
+{
+  for (const MirrorPair& m : mirror.pairs)
+    if (m.bond.intact > 0.0) p.load[m.particle].t.x() = p.load[m.particle].t.z() = 0.0;
+}
+
+} // namespace mergel::dem

@@ -1,0 +1,48 @@
+/// Which particles may act on each other: cell search and Verlet list.
+#pragma once
+
+#include "dem/bonds.h"
+#include "dem/contacts.h"
+
+namespace mergel::dem {
+
+/// Every pair with gap < range (S_i + S_j)/2, ascending. Cells by size class, a factor of
+/// two each: linear in the number of particles at any ratio of diameters.
+///
+/// @param range gap at S = 1 [m], >= 0
+/// @throws InputError when a periodic edge is shorter than twice the longest reach, so
+///   that a particle could meet its own image
+std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, double range);
+
+/// Verlet list: the pairs within g_a + skin, good until some particle has moved by half its
+/// skin.
+///
+/// A rebuild is unobservable: it adds and removes only pairs that do not act, and history
+/// stays with its pair.
+class VerletList {
+public:
+  /// @param g_a activation gap, @param skin margin; both at S = 1 [m], both scale with S
+  VerletList(double g_a, double skin) : g_a_(g_a), skin_(skin) {}
+
+  /// True when a particle moved by half its skin since the last build, or there was none.
+  bool is_stale(const Particles& p) const;
+
+  /// Replace the pairs of `contacts`, those ever bonded left out, and keep the shear
+  /// history.
+  void rebuild(const Particles& p, const PeriodicCell& cell, const Bonds& bonds,
+               Contacts& contacts);
+
+  void invalidate() { x_built_.clear(); }
+  double skin() const { return skin_; }
+  /// How far a wall may move before the list is stale: half the skin of the smallest S [m].
+  double wall_allowance() const { return 0.5 * least_skin_; }
+  std::size_t n_builds() const { return n_builds_; }
+
+private:
+  double g_a_, skin_;
+  std::vector<Vec3> x_built_;
+  double least_skin_ = 0.0; ///< [m]
+  std::size_t n_builds_ = 0;
+};
+
+} // namespace mergel::dem

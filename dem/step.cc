@@ -1,0 +1,124 @@
+#include "dem/step.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace mergel::dem {
+
+namespace {
+
+void rebuild_lists(Rock& rock)
+{
+  const Particles& p = rock.particles;
+  const double skin = rock.list.skin();
+  rock.list.rebuild(p, rock.cell, rock.bonds, rock.contacts);
+  for (Mirror& m : rock.mirrors) rebuild_mirror(m, p, rock.material.contact.g_a, skin);
+  for (PlaneWall& w : rock.planes)
+    w.contacts.rebuild(p, w.material.g_a, skin, w.plane.point,
+                       [&](const Body& b) { return w.plane.touch(b).gap; });
+  for (Wall& w : rock.walls) rebuild_wall(w, p, skin);
+  for (PileWall& w : rock.piles)
+    w.contacts.rebuild(p, w.material.g_a, skin, w.pile.tip(),
+                       [&](const Body& b) { return w.pile.meet(b).touch.gap; });
+}
+
+/// Half of the skin belongs to the particles, half to the walls.
+bool lists_are_stale(const Rock& rock)
+{
+  if (rock.list.is_stale(rock.particles)) return true;
+  const double allowed = rock.list.wall_allowance();
+  for (const PlaneWall& w : rock.planes)
+    if (w.contacts.has_moved(w.plane.point, allowed)) return true;
+  for (const Wall& w : rock.walls)
+    if (has_moved(w, allowed)) return true;
+  for (const PileWall& w : rock.piles)
+    if (w.contacts.has_moved(w.pile.tip(), allowed)) return true;
+  return false;
+}
+
+} // namespace
+
+double wall_clock()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+void add_forces(Rock& rock, double dt)
+{
+  Particles& p = rock.particles;
+  double from = wall_clock();
+  const auto lap = [&from](double& part) {
+    const double to = wall_clock();
+    part += to - from;
+    from = to;
+  };
+  for (Wall& w : rock.walls) update_normals(w);
+  if (lists_are_stale(rock)) rebuild_lists(rock);
+  clear_loads(p);
+  lap(rock.times.lists);
+
+  add_bond_forces(rock.material, rock.cell, dt, p, rock.bonds, rock.losses);
+  lap(rock.times.bonds);
+  add_contact_forces(rock.material.contact, rock.cell, dt, p, rock.contacts, rock.losses);
+  lap(rock.times.contacts);
+
+  for (Mirror& m : rock.mirrors) add_mirror_forces(rock.material, dt, p, m, rock.losses);
+  for (PlaneWall& w : rock.planes)
+    w.force = add_plane_forces(w.material, w.plane, dt, p, w.contacts, rock.losses);
+  for (Wall& w : rock.walls)
+    add_wall_forces(rock.material.bond, rock.wall_bonds_yield, dt, p, w, rock.losses);
+  for (PileWall& w : rock.piles)
+    w.load = add_pile_forces(w.material, w.pile, dt, p, w.contacts, rock.losses);
+  for (const Mirror& m : rock.mirrors) hold_mirror_spin(m, p);
+  lap(rock.times.walls);
+}
+
+double stable_time_step(const Rock& rock, double safety)
+{
+  const Particles& p = rock.particles;
+  StiffnessSums s = stiffness_sums(rock.material, rock.cell, p, rock.bonds, rock.contacts);
+  for (const Mirror& m : rock.mirrors) add_mirror_stiffness(s, rock.material, p, m);
+  for (const PlaneWall& w : rock.planes)
+    add_surface_stiffness(s, w.material, p, w.contacts);
+  for (const Wall& w : rock.walls) add_wall_stiffness(s, rock.material.bond, p, w);
+  for (const PileWall& w : rock.piles) add_surface_stiffness(s, w.material, p, w.contacts);
+  return time_step(s, p, safety, rock.motion);
+}
+
+double unbalanced_ratio(const Rock& rock)
+{
+  return unbalanced_ratio(mean_resultant(rock.particles, rock.motion), rock.particles,
+                          rock.material, rock.cell, rock.bonds, rock.contacts);
+}
+
+void check_overlaps(const Rock& rock)
+{
+  const auto check = [&](const Pair& q) {
+    const Body &i = rock.particles.body[q.i], &j = rock.particles.body[q.j];
+    const double r = std::min(i.R, j.R);
+    const double overlap = i.R + j.R - (j.x + rock.cell.offset(q.shift) - i.x).norm();
+    if (overlap > 0.5 * r)
+      throw NumericalError(
+          "particles " + std::to_string(rock.particles.id[q.i]) + " and " +
+          std::to_string(rock.particles.id[q.j]) + " overlap by " +
+          std::to_string(overlap / r) +
+          " of the smaller radius (at most 0.5): the contact is too soft for "
+          "this load");
+  };
+  for (const Pair& q : rock.bonds.pairs) check(q);
+  for (const Pair& q : rock.contacts.pairs) check(q);
+}
+
+WallPower wall_power(const Rock& rock)
+{
+  WallPower power;
+  for (const PlaneWall& w : rock.planes) power.walls -= w.force.dot(w.plane.v);
+  for (const Wall& w : rock.walls)
+    for (std::size_t k = 0; k < w.f.size(); ++k) power.walls -= w.f[k].value().dot(w.v[k]);
+  for (const PileWall& w : rock.piles)
+    power.pile -= (w.load.cone.z.value() + w.load.shaft.z.value()) * w.pile.v_z;
+  return power;
+}
+
+} // namespace mergel::dem

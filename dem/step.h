@@ -1,0 +1,125 @@
+/// One DEM step, and the state that it moves.
+#pragma once
+
+#include "dem/integrate.h"
+#include "dem/mirror.h"
+#include "dem/neighbours.h"
+#include "dem/surfaces.h"
+#include "dem/timestep.h"
+#include "dem/walls.h"
+
+#include <optional>
+
+namespace mergel::dem {
+
+/// What holds the rock at the cut of a half model.
+enum class Symmetry {
+  mirror, ///< each particle near the cut is bonded to its image: the plane carries tension
+  wall    ///< images act by their contact only
+};
+
+/// Walls of the interface and what bonds the rock to them.
+enum class InterfaceBond {
+  bonded,    ///< does not break
+  breakable, ///< follows the bond law
+  frictional ///< contact only
+};
+
+/// A rigid plane and the spheres at it.
+struct PlaneWall {
+  Plane plane;
+  LinearMaterial material;
+  SurfaceContacts contacts;
+  Vec3 force = Vec3::Zero(); ///< on the plane in the last step [N]
+};
+
+/// The pile and the spheres at it.
+struct PileWall {
+  Pile pile;
+  LinearMaterial material;
+  SurfaceContacts contacts;
+  PileLoad load; ///< in the last step
+};
+
+/// Wall-clock time spent in the parts of a step [s]; for the closing summary, never for
+/// physics.
+struct StepTimes {
+  double motion = 0.0, lists = 0.0, bonds = 0.0, contacts = 0.0, walls = 0.0;
+
+  double total() const { return motion + lists + bonds + contacts + walls; }
+};
+
+/// A bonded rock with everything that acts on it. What a run does not have is an empty
+/// list.
+struct Rock {
+  Particles particles;
+  PeriodicCell cell;
+  Bonds bonds;
+  Contacts contacts;
+  PairMaterials material;
+  Motion motion;
+  VerletList list{0.0, 0.0};
+
+  std::vector<Mirror> mirrors; ///< none or one, the cut y = 0
+  std::vector<PlaneWall> planes;
+  std::vector<Wall> walls; ///< triangulated
+  std::vector<PileWall> piles;
+  bool wall_bonds_yield = false;
+
+  PairLosses losses;
+  KickWork work;
+  EnergySum wall_work; ///< done on the rock by planes and triangulated walls that move [J]
+  EnergySum pile_work; ///< done on the rock by the pile [J]
+  StepTimes times;
+};
+
+/// Forces at the present positions, from histories carried over the step dt [s] that ends
+/// now. Rebuilds the lists when they are stale.
+void add_forces(Rock& rock, double dt);
+
+/// kick, drift, move the walls by `move_walls(dt)`, forces.
+///
+/// The walls hold v^{n-1/2} before and v^{n+1/2} after move_walls, which also moves them to
+/// x^{n+1}.
+/// @param dt_before the step before [s]; the kick uses the mean of both
+template <class MoveWalls>
+void advance(Rock& rock, double dt_before, double dt, MoveWalls&& move_walls);
+
+/// The stable step of the rock as it is, walls included [s].
+double stable_time_step(const Rock& rock, double safety);
+
+/// Unbalanced-force ratio of the rock [-].
+double unbalanced_ratio(const Rock& rock);
+
+/// @throws NumericalError naming the particle when two grains overlap by more than half of
+///   the smaller radius
+void check_overlaps(const Rock& rock);
+
+/// Power of the wall forces of the last step on the rock, at the present wall velocities
+/// [W].
+struct WallPower {
+  double walls = 0.0, pile = 0.0;
+};
+WallPower wall_power(const Rock& rock);
+
+/// Seconds since any instant.
+double wall_clock();
+
+template <class MoveWalls>
+void advance(Rock& rock, double dt_before, double dt, MoveWalls&& move_walls)
+{
+  const double start = wall_clock();
+  const double dt_kick = 0.5 * (dt_before + dt);
+  kick(rock.particles, rock.motion, dt_kick, rock.work);
+  drift(rock.particles, dt);
+  rock.times.motion += wall_clock() - start;
+  // Work of the forces at t^n on the mean motion of the walls around t^n.
+  const WallPower before = wall_power(rock);
+  move_walls(dt);
+  const WallPower after = wall_power(rock);
+  rock.wall_work.add(0.5 * dt_kick * (before.walls + after.walls));
+  rock.pile_work.add(0.5 * dt_kick * (before.pile + after.pile));
+  add_forces(rock, dt);
+}
+
+} // namespace mergel::dem

@@ -1,0 +1,102 @@
+/// Exact walls: plane and cone-ended pile, each a rigid body moved from outside.
+#pragma once
+
+#include "dem/wall_contact.h"
+
+#include <optional>
+#include <vector>
+
+namespace mergel::dem {
+
+/// Half space; the rock is on the side to which `normal` points.
+struct Plane {
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ(); ///< unit, towards the rock
+  Vec3 v = Vec3::Zero();       ///< [m/s]
+
+  Touch touch(const Body& b) const
+  {
+    const double height = (b.x - point).dot(normal);
+    return {-normal, height - b.R, b.x - height * normal, v};
+  }
+  /// True for a centre behind the plane.
+  bool is_behind(const Body& b) const { return (b.x - point).dot(normal) < 0.0; }
+};
+
+/// Cone-ended pile: exact body of revolution about a vertical axis, pushed along it.
+///
+/// The meridian is the cone from the tip (0, z_tip) to the shoulder (R, z_tip +
+/// cone_height) and the shaft above. The profile is convex, so the closest point of a
+/// centre outside is unique.
+struct Pile {
+  double R = 0.0;                    ///< radius of the shaft [m], > 0
+  double cone_height = 0.0;          ///< [m], R / tan(half the cone angle), > 0
+  double x_axis = 0.0, y_axis = 0.0; ///< [m]
+  double z_tip = 0.0;                ///< [m]
+  double v_z = 0.0;                  ///< velocity, upwards positive [m/s]
+
+  Vec3 tip() const { return {x_axis, y_axis, z_tip}; }
+
+  enum class Part { cone, shaft };
+  struct Meeting {
+    Touch touch;
+    Part part;
+  };
+  /// The closest point of the pile. The shoulder's edge counts as cone.
+  /// @throws NumericalError for a centre inside the pile
+  Meeting meet(const Body& b) const;
+  /// Height of the shoulder [m].
+  double z_shoulder() const { return z_tip + cone_height; }
+};
+
+/// Resultants of the pile contacts of one step, on the pile.
+struct PileLoad {
+  VectorSum cone, shaft; ///< [N]
+};
+
+/// Spheres near an exact wall, with the history of each.
+class SurfaceContacts {
+public:
+  /// Candidates: spheres whose gap to the wall is below (g_a + skin) S, `gap_of(body)`
+  /// giving the gap. Good while neither a sphere nor the wall, now at `place`, has moved by
+  /// half of skin S.
+  template <class Gap>
+  void rebuild(const Particles& p, double g_a, double skin, const Vec3& place, Gap&& gap_of)
+  {
+    std::vector<WallContact> near;
+    for (Index i = 0; i < p.n_owned; ++i)
+      if (gap_of(p.body[i]) < (g_a + skin) * p.body[i].S)
+        near.push_back({i, 0, {0, 0, 0}, 0.0});
+    contacts_ = carry_history(std::move(near), contacts_);
+    place_ = place;
+  }
+  /// True when the wall has moved by more than `allowed` [m] since.
+  bool has_moved(const Vec3& place, double allowed) const
+  {
+    return (place - place_).norm() > allowed;
+  }
+  std::vector<WallContact>& contacts() { return contacts_; }
+  const std::vector<WallContact>& contacts() const { return contacts_; }
+
+  double energy() const
+  {
+    double e = 0.0;
+    for (const WallContact& c : contacts_) e += c.energy;
+    return e;
+  }
+
+private:
+  std::vector<WallContact> contacts_;
+  Vec3 place_ = Vec3::Zero();
+};
+
+/// Add plane contacts; returns the resultant on the plane [N].
+/// @throws NumericalError when a centre is behind the plane
+Vec3 add_plane_forces(const LinearMaterial& material, const Plane& plane, double dt,
+                      Particles& p, SurfaceContacts& contacts, PairLosses& losses);
+
+/// Add pile contacts.
+PileLoad add_pile_forces(const LinearMaterial& material, const Pile& pile, double dt,
+                         Particles& p, SurfaceContacts& contacts, PairLosses& losses);
+
+} // namespace mergel::dem

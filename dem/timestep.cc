@@ -1,0 +1,133 @@
+#include "dem/timestep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mergel::dem {
+
+namespace {
+
+void add_spring(StiffnessSums& s, Index i, double k_n, double k_s, double arm, double k_b)
+{
+  s.k[i] += k_n;
+  s.k_rot[i] += 2.0 * (k_s * arm * arm + k_b);
+}
+
+/// Bond and contact of one pair, onto both ends.
+void add_pair(StiffnessSums& s, const PairMaterials& material, const PeriodicCell& cell,
+              const Particles& p, const Pair& q, bool bonded)
+{
+  const Body &i = p.body[q.i], &j = p.body[q.j];
+  const double L = i.R + j.R, r = std::min(i.R, j.R);
+  const double gap = (j.x + cell.offset(q.shift) - i.x).norm() - L;
+  double k_n = 0.0, k_s = 0.0, k_b = 0.0;
+  if (bonded) {
+    const auto b = bond_shape(material.bond, r, 1.0 / L);
+    k_n += b.k_n;
+    k_s += b.k_s;
+    k_b += b.k_b;
+  }
+  if (gap < material.contact.g_a * 0.5 * (i.S + j.S)) {
+    const auto c = linear_stiffness(material.contact, r, 1.0 / L);
+    k_n += c.k_n;
+    k_s += c.k_s;
+  }
+  if (k_n == 0.0) return;
+  add_spring(s, q.i, k_n, k_s, i.R + 0.5 * gap, k_b);
+  add_spring(s, q.j, k_n, k_s, j.R + 0.5 * gap, k_b);
+}
+
+} // namespace
+
+StiffnessSums stiffness_sums(const PairMaterials& material, const PeriodicCell& cell,
+                             const Particles& p, const Bonds& bonds,
+                             const Contacts& contacts)
+{
+  StiffnessSums s{std::vector<double>(p.size()), std::vector<double>(p.size())};
+  for (std::size_t b = 0; b < bonds.size(); ++b)
+    add_pair(s, material, cell, p, bonds.pairs[b], bonds.intact(b) > 0.0);
+  for (const Pair& q : contacts.pairs) add_pair(s, material, cell, p, q, false);
+  return s;
+}
+
+void add_wall_stiffness(StiffnessSums& s, const BondMaterial& bond, const Particles& p,
+                        const Wall& wall)
+{
+  for (const WallContact& c : wall.contacts) {
+    if (c.energy == 0.0) continue;
+    const double R = p.body[c.particle].R;
+    const auto k = linear_stiffness(wall.material, R, 1.0 / R);
+    add_spring(s, c.particle, k.k_n, k.k_s, R, 0.0);
+  }
+  for (const WallBond& b : wall.bonds) {
+    if (b.state.intact == 0.0) continue;
+    const double R = p.body[b.particle].R;
+    const auto k = bond_shape(bond, R, 1.0 / R);
+    add_spring(s, b.particle, k.k_n, k.k_s, R + std::max(0.0, b.gap_0), 0.0);
+  }
+}
+
+void add_surface_stiffness(StiffnessSums& s, const LinearMaterial& material,
+                           const Particles& p, const SurfaceContacts& contacts)
+{
+  for (const WallContact& c : contacts.contacts()) {
+    if (c.energy == 0.0) continue;
+    const double R = p.body[c.particle].R;
+    const auto k = linear_stiffness(material, R, 1.0 / R);
+    add_spring(s, c.particle, k.k_n, k.k_s, R, 0.0);
+  }
+}
+
+void add_mirror_stiffness(StiffnessSums& s, const PairMaterials& material,
+                          const Particles& p, const Mirror& mirror)
+{
+  for (const MirrorPair& m : mirror.pairs) {
+    const Body& b = p.body[m.particle];
+    const double gap = 2.0 * (b.x.y() - b.R);
+    // The image is a pair of equal masses like any other.
+    if (m.bond.intact > 0.0)
+      s.k[m.particle] += bond_shape(material.bond, b.R, 0.5 / b.R).k_n;
+    if (gap < material.contact.g_a * b.S)
+      s.k[m.particle] += linear_stiffness(material.contact, b.R, 0.5 / b.R).k_n;
+  }
+}
+
+double time_step(const StiffnessSums& s, const Particles& p, double safety,
+                 const Motion& motion)
+{
+  double dt2 = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < p.n_owned; ++i) {
+    if (s.k[i] > 0.0) dt2 = std::min(dt2, 2.0 * p.body[i].m / s.k[i]);
+    if (s.k_rot[i] > 0.0 && (p.n_bonds[i] > 0 || motion.free_rotation))
+      dt2 = std::min(dt2, 2.0 * p.body[i].inertia() / s.k_rot[i]);
+  }
+  return safety * std::sqrt(dt2 / (1.0 + motion.damping));
+}
+
+double unbalanced_ratio(double mean_resultant, const Particles& p,
+                        const PairMaterials& material, const PeriodicCell& cell,
+                        const Bonds& bonds, const Contacts& contacts)
+{
+  // Each pair force acts on two particles.
+  ForceSum sum;
+  const auto contact_force = [&](const Pair& q) {
+    const Body &i = p.body[q.i], &j = p.body[q.j];
+    const double L = i.R + j.R, gap = (j.x + cell.offset(q.shift) - i.x).norm() - L;
+    const double closed = material.contact.g_a * 0.5 * (i.S + j.S) - gap;
+    return closed > 0.0
+               ? linear_stiffness(material.contact, std::min(i.R, j.R), 1.0 / L).k_n *
+                     closed
+               : 0.0;
+  };
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    const BondReading r = read_bond(bonds, b, p, cell, material.bond);
+    sum.add(2.0 * (std::hypot(r.N, r.V.norm()) + contact_force(bonds.pairs[b])));
+  }
+  for (const Pair& q : contacts.pairs) sum.add(2.0 * contact_force(q));
+  const double mean_force =
+      p.n_owned == 0 ? 0.0 : sum.value() / static_cast<double>(p.n_owned);
+  return mean_force > 0.0 ? mean_resultant / mean_force : 0.0;
+}
+
+} // namespace mergel::dem

@@ -1,0 +1,471 @@
+#include "dem/walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace mergel::dem {
+
+namespace {
+
+/// Cosine of the largest fold that one smooth patch may have.
+const double cos_fold = std::cos(pi / 6.0);
+
+Vec3 area_vector(const std::vector<Vec3>& x, const Triangle& t)
+{
+  const auto at = [&](int k) {
+    return x[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+  };
+  return 0.5 * (at(1) - at(0)).cross(at(2) - at(0));
+}
+
+std::size_t uz(int i)
+{
+  return static_cast<std::size_t>(i);
+}
+
+/// Closest point of a triangle and the feature that holds it.
+struct Closest {
+  enum class On { face, edge, corner } on;
+  int which;   ///< edge (k, k+1) or corner k
+  Vec3 weight; ///< barycentric
+  Vec3 point;
+};
+
+/// Source: the Voronoi regions of a triangle, Ericson (2005), Real-Time Collision
+/// Detection, section 5.1.5.
+Closest closest_on_triangle(const Vec3& c, const Vec3& a, const Vec3& b, const Vec3& d)
+{
+  using On = Closest::On;
+  const Vec3 ab = b - a, ad = d - a;
+  const Vec3 ac = c - a, bc = c - b, dc = c - d;
+  const double d1 = ab.dot(ac), d2 = ad.dot(ac);
+  if (d1 <= 0.0 && d2 <= 0.0) return {On::corner, 0, {1, 0, 0}, a};
+  const double d3 = ab.dot(bc), d4 = ad.dot(bc);
+  if (d3 >= 0.0 && d4 <= d3) return {On::corner, 1, {0, 1, 0}, b};
+  const double d5 = ab.dot(dc), d6 = ad.dot(dc);
+  if (d6 >= 0.0 && d5 <= d6) return {On::corner, 2, {0, 0, 1}, d};
+
+  const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vd = d1 * d4 - d3 * d2;
+  if (vd <= 0.0 && d1 >= 0.0 && d3 <= 0.0) { // d1 - d3 = |ab|^2 > 0
+    const double s = d1 / (d1 - d3);
+    return {On::edge, 0, {1 - s, s, 0}, a + s * ab};
+  }
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) { // d2 - d6 = |ad|^2 > 0
+    const double s = d2 / (d2 - d6);
+    return {On::edge, 2, {1 - s, 0, s}, a + s * ad};
+  }
+  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) { // the sum is |bd|^2 > 0
+    const double s = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {On::edge, 1, {0, 1 - s, s}, b + s * (d - b)};
+  }
+  const double inv =
+      1.0 / (va + vb + vd); // twice the area squared, not 0 for a proper triangle
+  const double wb = vb * inv, wd = vd * inv;
+  return {On::face, 0, {1 - wb - wd, wb, wd}, a + wb * ab + wd * ad};
+}
+
+Closest closest_on(const Wall& wall, int t, const Vec3& c)
+{
+  const Triangle& k = wall.topology.triangles[uz(t)];
+  return closest_on_triangle(c, wall.x[uz(k[0])], wall.x[uz(k[1])], wall.x[uz(k[2])]);
+}
+
+/// Does the Voronoi region of the feature hold c on every triangle that shares it? One of
+/// the triangles, the first, reports a shared feature.
+bool is_reported(const Wall& wall, int t, const Closest& at, const Vec3& c)
+{
+  const WallTopology& topo = wall.topology;
+  if (at.on == Closest::On::face) return true;
+  const Triangle& tri = topo.triangles[uz(t)];
+  if (at.on == Closest::On::edge) {
+    const int other = topo.across[uz(t)][uz(at.which)];
+    if (other < 0) return true;
+    if (other < t) return false;
+    const Vec3 e = wall.x[uz(tri[uz((at.which + 1) % 3)])] - wall.x[uz(tri[uz(at.which)])];
+    // In the other triangle the edge runs backwards: its interior is along e x normal.
+    return (c - at.point).dot(e.cross(wall.normals[uz(other)])) <= 0.0;
+  }
+  const int node = tri[uz(at.which)];
+  for (const int other : topo.around[uz(node)]) {
+    if (topo.patch[uz(other)] != topo.patch[uz(t)]) continue;
+    if (other < t) return false;
+    for (const int m : topo.triangles[uz(other)])
+      if (m != node && (c - at.point).dot(wall.x[uz(m)] - wall.x[uz(node)]) > 0.0)
+        return false;
+  }
+  return true;
+}
+
+Vec3 closest_point_of_wall(const Wall& wall, const std::vector<int>& near, const Vec3& c,
+                           Anchor& anchor)
+{
+  double best = std::numeric_limits<double>::infinity();
+  Vec3 point = Vec3::Zero();
+  for (const int t : near) {
+    const Closest at = closest_on(wall, t, c);
+    const double d2 = (c - at.point).squaredNorm();
+    if (d2 >= best) continue;
+    best = d2;
+    point = at.point;
+    anchor = {t, at.weight};
+  }
+  return point;
+}
+
+} // namespace
+
+WallTopology make_topology(const std::vector<Vec3>& x, std::vector<Triangle> triangles)
+{
+  WallTopology topo;
+  topo.triangles = std::move(triangles);
+  const std::size_t n = topo.triangles.size();
+  topo.across.assign(n, {-1, -1, -1});
+  topo.around.resize(x.size());
+
+  std::vector<Vec3> normal(n);
+  std::map<std::pair<int, int>, std::pair<int, int>>
+      edges; // directed edge -> triangle, edge
+  for (std::size_t t = 0; t < n; ++t) {
+    const Triangle& k = topo.triangles[t];
+    for (const int m : k)
+      require(m >= 0 && uz(m) < x.size(), "wall triangle " + std::to_string(t) +
+                                              " names node " + std::to_string(m) + " of " +
+                                              std::to_string(x.size()));
+    const Vec3 a = area_vector(x, k);
+    require(a.norm() > 0.0, "wall triangle " + std::to_string(t) + " has no area");
+    normal[t] = a.normalized();
+    for (int e = 0; e < 3; ++e) {
+      const std::pair edge{k[uz(e)], k[uz((e + 1) % 3)]};
+      require(
+          edges.emplace(edge, std::pair{static_cast<int>(t), e}).second,
+          "wall triangle " + std::to_string(t) +
+              " runs along an edge in the same direction as another: turn its normal, or "
+              "split an edge of more than two triangles");
+      topo.around[uz(k[uz(e)])].push_back(static_cast<int>(t));
+    }
+  }
+  for (const auto& [edge, here] : edges) {
+    const auto there = edges.find({edge.second, edge.first});
+    if (there == edges.end()) continue;
+    const int other = there->second.first;
+    if (normal[uz(here.first)].dot(normal[uz(other)]) < cos_fold) continue;
+    topo.across[uz(here.first)][uz(here.second)] = other;
+  }
+
+  topo.patch.assign(n, -1);
+  for (std::size_t t = 0; t < n; ++t) {
+    if (topo.patch[t] >= 0) continue;
+    std::vector<int> open{static_cast<int>(t)};
+    topo.patch[t] = topo.n_patches;
+    while (!open.empty()) {
+      const int k = open.back();
+      open.pop_back();
+      for (const int other : topo.across[uz(k)])
+        if (other >= 0 && topo.patch[uz(other)] < 0) {
+          topo.patch[uz(other)] = topo.n_patches;
+          open.push_back(other);
+        }
+    }
+    ++topo.n_patches;
+  }
+  return topo;
+}
+
+Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
+               const LinearMaterial& material)
+{
+  Wall wall;
+  wall.topology = make_topology(x, std::move(triangles));
+  wall.x = x;
+  wall.v.assign(x.size(), Vec3::Zero());
+  wall.f.resize(x.size());
+  wall.material = material;
+  update_normals(wall);
+  return wall;
+}
+
+double Wall::energy() const
+{
+  double e = 0.0;
+  for (const WallContact& c : contacts) e += c.energy;
+  for (const WallBond& b : bonds) e += b.energy;
+  return e;
+}
+
+void update_normals(Wall& wall)
+{
+  const auto& triangles = wall.topology.triangles;
+  wall.normals.resize(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    wall.normals[t] = area_vector(wall.x, triangles[t]).normalized();
+}
+
+Vec3 at(const std::vector<Vec3>& nodal, const WallTopology& topo, const Anchor& a)
+{
+  const Triangle& t = topo.triangles[uz(a.triangle)];
+  return a.weight[0] * nodal[uz(t[0])] + a.weight[1] * nodal[uz(t[1])] +
+         a.weight[2] * nodal[uz(t[2])];
+}
+
+namespace {
+
+/// How much nearer the face is than the valleys that bound it [m]; infinite without one. A
+/// second face enters a valley with this share, so that the force does not jump.
+double lead_over_valleys(const Wall& wall, int t, const Vec3& c, double distance)
+{
+  const WallTopology& topo = wall.topology;
+  const Triangle& tri = topo.triangles[uz(t)];
+  double lead = std::numeric_limits<double>::infinity();
+  for (int e = 0; e < 3; ++e) {
+    const int other = topo.across[uz(t)][uz(e)];
+    if (other < 0) continue;
+    const Vec3 &a = wall.x[uz(tri[uz(e)])], &b = wall.x[uz(tri[uz((e + 1) % 3)])];
+    const Vec3 ab = b - a;
+    const bool is_valley = ab.dot(wall.normals[uz(t)].cross(wall.normals[uz(other)])) < 0.0;
+    if (!is_valley) continue;
+    const double s = std::clamp((c - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+    lead = std::min(lead, (c - a - s * ab).norm() - distance);
+  }
+  return lead;
+}
+
+} // namespace
+
+std::optional<PatchTouch> touch_patch(const Wall& wall, const std::vector<int>& near,
+                                      const Body& body, double reach)
+{
+  struct Feature {
+    Anchor at;
+    Vec3 point;
+    double distance, overlap;
+  };
+  std::array<Feature, PatchTouch::most> features;
+  std::size_t n_features = 0;
+  double total = 0.0, nearest = std::numeric_limits<double>::infinity();
+  bool is_inside = true;
+  Feature closest{};
+  for (const int t : near) {
+    // Distance to the plane bounds the distance to the triangle: most candidates end here.
+    const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(t)][0])];
+    const double height = (body.x - corner).dot(wall.normals[uz(t)]);
+    if (height - body.R >= reach) continue;
+    const Closest at = closest_on(wall, t, body.x);
+    const double d = (body.x - at.point).norm();
+    const double overlap = reach - (d - body.R);
+    if (d < nearest) {
+      nearest = d;
+      closest = {{t, at.weight}, at.point, d, overlap};
+      // The rim of a wall has no other side.
+      const bool has_sides =
+          at.on == Closest::On::face ||
+          (at.on == Closest::On::edge && wall.topology.across[uz(t)][uz(at.which)] >= 0);
+      is_inside = !has_sides || height > 0.0;
+    }
+    if (overlap <= 0.0 || !is_reported(wall, t, at, body.x)) continue;
+    if (n_features == features.size())
+      throw NumericalError(
+          "a particle touches more than " + std::to_string(features.size()) +
+          " features of a wall: its triangles are too small for the grains");
+    double share = overlap;
+    if (at.on == Closest::On::face)
+      share = std::min(share, std::max(0.0, lead_over_valleys(wall, t, body.x, d)));
+    features[n_features++] = {{t, at.weight}, at.point, d, share};
+    total += share;
+  }
+  // Straight over an edge, round-off may let no feature claim the centre: the closest does.
+  if (total <= 0.0 && closest.overlap > 0.0) {
+    features[0] = closest;
+    n_features = 1;
+    total = closest.overlap;
+  }
+  if (!is_inside) throw NumericalError("a particle is on the wrong side of a wall");
+  if (n_features == 0) return std::nullopt;
+
+  PatchTouch p;
+  double distance = 0.0;
+  for (std::size_t k = 0; k < n_features; ++k) {
+    const double w = features[k].overlap / total; // overlaps are positive
+    p.shares[p.n++] = {features[k].at, w};
+    p.touch.point += w * features[k].point;
+    p.touch.v += w * at(wall.v, wall.topology, features[k].at);
+    p.touch.n += w * (features[k].point - body.x) / features[k].distance;
+    distance += w * features[k].distance;
+  }
+  p.touch.n.normalize();
+  p.touch.gap = distance - body.R;
+  return p;
+}
+
+void rebuild_wall(Wall& wall, const Particles& p, double skin)
+{
+  std::vector<WallContact> found;
+  std::vector<std::vector<int>> near;
+  const WallTopology& topo = wall.topology;
+
+  // Bounding spheres of the triangles, sorted along z, so that a particle sees only its own
+  // slice.
+  struct Ball {
+    double z, r;
+    Vec3 c;
+    int t;
+  };
+  std::vector<Ball> balls;
+  double r_max = 0.0;
+  for (std::size_t t = 0; t < topo.triangles.size(); ++t) {
+    const Triangle& k = topo.triangles[t];
+    const Vec3 c = (wall.x[uz(k[0])] + wall.x[uz(k[1])] + wall.x[uz(k[2])]) / 3.0;
+    double r = 0.0;
+    for (const int m : k) r = std::max(r, (wall.x[uz(m)] - c).norm());
+    balls.push_back({c.z(), r, c, static_cast<int>(t)});
+    r_max = std::max(r_max, r);
+  }
+  std::sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) {
+    return std::pair{a.z, a.t} < std::pair{b.z, b.t};
+  });
+
+  std::vector<std::pair<int, int>> hits; // patch, triangle
+  for (Index i = 0; i < p.n_owned; ++i) {
+    const Body& b = p.body[i];
+    const double reach = b.R + (wall.material.g_a + skin) * b.S;
+    hits.clear();
+    auto ball = std::lower_bound(balls.begin(), balls.end(), b.x.z() - reach - r_max,
+                                 [](const Ball& a, double z) { return a.z < z; });
+    for (; ball != balls.end() && ball->z <= b.x.z() + reach + r_max; ++ball) {
+      const double far = reach + ball->r;
+      if ((b.x - ball->c).squaredNorm() > far * far) continue;
+      if ((closest_on(wall, ball->t, b.x).point - b.x).squaredNorm() > reach * reach)
+        continue;
+      hits.emplace_back(topo.patch[uz(ball->t)], ball->t);
+    }
+    std::sort(hits.begin(), hits.end());
+    for (const auto& [patch, t] : hits) {
+      if (found.empty() || found.back().particle != i || found.back().wall != patch) {
+        found.push_back({i, patch, Vec3::Zero(), 0.0});
+        near.emplace_back();
+      }
+      near.back().push_back(t);
+    }
+  }
+  wall.contacts = carry_history(std::move(found), wall.contacts);
+  wall.near = std::move(near);
+  wall.x_listed = wall.x;
+}
+
+bool has_moved(const Wall& wall, double allowed)
+{
+  if (wall.x_listed.size() != wall.x.size()) return true;
+  for (std::size_t k = 0; k < wall.x.size(); ++k)
+    if ((wall.x[k] - wall.x_listed[k]).squaredNorm() > allowed * allowed) return true;
+  return false;
+}
+
+void bond_to_wall(Wall& wall, Particles& p, double limit)
+{
+  if (!wall.bonds.empty()) throw std::logic_error("this wall is bonded already");
+  std::vector<std::vector<int>> triangles_of(uz(wall.topology.n_patches));
+  for (std::size_t t = 0; t < wall.topology.triangles.size(); ++t)
+    triangles_of[uz(wall.topology.patch[t])].push_back(static_cast<int>(t));
+  for (Index i = 0; i < p.n_owned; ++i) {
+    const Body& b = p.body[i];
+    // One bond per patch in reach: a particle in a corner is held by both sides.
+    for (const std::vector<int>& own : triangles_of) {
+      Anchor anchor;
+      const Vec3 point = closest_point_of_wall(wall, own, b.x, anchor);
+      const double gap = (point - b.x).norm() - b.R;
+      if (gap >= limit * b.S) continue;
+      WallBond bond;
+      bond.particle = i;
+      bond.anchor = anchor;
+      bond.gap_0 = gap;
+      wall.bonds.push_back(bond);
+      ++p.n_bonds[i];
+    }
+  }
+}
+
+namespace {
+
+/// Force on the particle at the anchor.
+Vec3 add_wall_bond(const BondMaterial& material, bool yields, double dt, const Vec3& x_a,
+                   const Vec3& v_a, Particles& p, WallBond& bond, PairLosses& losses)
+{
+  const Body& b = p.body[bond.particle];
+  const End<double> particle{triple(b.x), b.R, triple(b.v), b.S, triple(b.omega)};
+  const End<double> wall{triple(x_a), 0.0, triple(v_a), b.S, Triple<double>{}};
+  const auto k = pair_motion(particle, wall, dt, 1.0);
+  const auto shape = bond_shape(material, b.R, 1.0 / b.R);
+
+  const Triple<double> V = turned(triple(bond.V), k);
+  EffectiveLoads<double> load{shape.k_n * (k.gap - bond.gap_0 - bond.state.u_p),
+                              V + k.du_s * shape.k_s, Triple<double>{}};
+  if (yields && !is_elastic(material, shape, load)) {
+    const EffectiveLoads<double> old{load.N - shape.k_n * k.du_n, V, Triple<double>{}};
+    const BondReturn r =
+        return_bond(material, shape, material.u_c * b.S, bond.state, old, load);
+    load = r.loads;
+    bond.state = r.state;
+    ++losses.yielded;
+    losses.plastic.add(r.loss);
+    if (bond.state.intact == 0.0) {
+      losses.residue.add(r.residue);
+      ++losses.broken;
+      --p.n_bonds[bond.particle];
+      bond.V.setZero();
+      bond.energy = 0.0;
+      return Vec3::Zero();
+    }
+  }
+  bond.V = vec3(load.V);
+  bond.energy = bond.state.intact * spring_energy(shape, load);
+  const Vec3 f = bond.state.intact * vec3(k.n * load.N + load.V);
+  p.load[bond.particle].f += f;
+  p.load[bond.particle].t += (x_a - b.x).cross(f);
+  return f;
+}
+
+void push_nodes(Wall& wall, const Anchor& a, const Vec3& f)
+{
+  const Triangle& t = wall.topology.triangles[uz(a.triangle)];
+  for (int k = 0; k < 3; ++k)
+    if (a.weight[k] != 0.0) wall.f[uz(t[uz(k)])].add(a.weight[k] * f);
+}
+
+} // namespace
+
+void add_wall_forces(const BondMaterial& bond, bool yields, double dt, Particles& p,
+                     Wall& wall, PairLosses& losses)
+{
+  for (VectorSum& f : wall.f) f.clear();
+  wall.contact_power = 0.0;
+
+  for (std::size_t c = 0; c < wall.contacts.size(); ++c) {
+    WallContact& contact = wall.contacts[c];
+    Body& body = p.body[contact.particle];
+    const auto touch = touch_patch(wall, wall.near[c], body, wall.material.g_a * body.S);
+    if (!touch) {
+      const auto k = linear_stiffness(wall.material, body.R, 1.0 / body.R);
+      losses.slip.add(0.5 * contact.f_s.squaredNorm() / k.k_s); // lost as the gap opens
+      contact.f_s.setZero();
+      contact.energy = 0.0;
+      continue;
+    }
+    const Vec3 f = add_wall_contact(wall.material, touch->touch, dt, body,
+                                    p.load[contact.particle], contact, losses);
+    for (std::size_t s = 0; s < touch->n; ++s)
+      push_nodes(wall, touch->shares[s].at, -touch->shares[s].weight * f);
+    wall.contact_power -= f.dot(touch->touch.v);
+  }
+
+  for (WallBond& b : wall.bonds) {
+    if (b.state.intact == 0.0) continue;
+    const Vec3 x_a = at(wall.x, wall.topology, b.anchor);
+    const Vec3 v_a = at(wall.v, wall.topology, b.anchor);
+    const Vec3 f = add_wall_bond(bond, yields, dt, x_a, v_a, p, b, losses);
+    push_nodes(wall, b.anchor, -f);
+    wall.contact_power -= f.dot(v_a);
+  }
+}
+
+} // namespace mergel::dem

@@ -1,0 +1,114 @@
+/// Triangulated walls moved from outside: nodal positions and velocities in, nodal forces
+/// out.
+#pragma once
+
+#include "dem/laws/bond.h"
+#include "dem/wall_contact.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace mergel::dem {
+
+using Triangle = std::array<int, 3>;
+
+/// Edges and corners of a triangulation, and its smooth patches.
+///
+/// Normals follow the right-hand rule and point to the rock. A fold beyond 30 degrees
+/// separates patches: a sphere in such a corner feels each side on its own, a sphere on a
+/// smaller fold feels one force. On a ridge sharper than that, seen from outside, both sides
+/// claim the edge and push in full: give such a body as an exact surface (surfaces.h).
+struct WallTopology {
+  std::vector<Triangle> triangles;
+  std::vector<int> patch; ///< by triangle
+  int n_patches = 0;
+  /// By triangle: the triangle beyond edge (k, k+1) in the same patch, or -1.
+  std::vector<std::array<int, 3>> across;
+  std::vector<std::vector<int>> around; ///< triangles at each node
+};
+
+/// @param x reference node positions [m]
+/// @throws InputError for a degenerate triangle, an edge shared by more than two, or
+///   normals that disagree
+WallTopology make_topology(const std::vector<Vec3>& x, std::vector<Triangle> triangles);
+
+/// A point carried by a triangle.
+struct Anchor {
+  int triangle = -1;
+  Vec3 weight = Vec3::Zero(); ///< barycentric coordinates, sum 1
+};
+
+/// A bond between a particle and a point of a wall: N and V only, bond length l = R.
+struct WallBond {
+  Index particle = 0;
+  Anchor anchor;
+  double gap_0 = 0.0;
+  BondState state;
+  Vec3 V = Vec3::Zero(); ///< effective shear force on the particle [N]
+  double energy = 0.0;   ///< stored now [J]
+};
+
+struct Wall {
+  WallTopology topology;
+  std::vector<Vec3> x, v;     ///< nodes [m], [m/s]; whoever moves the wall writes them
+  std::vector<VectorSum> f;   ///< on the nodes [N], of the last step
+  std::vector<Vec3> x_listed; ///< nodes when the candidates were found [m]
+  std::vector<WallContact> contacts;  ///< candidates, ascending in (particle, patch)
+  std::vector<std::vector<int>> near; ///< by contact: triangles of the patch within reach
+  std::vector<WallBond> bonds;        ///< ascending in particle
+  LinearMaterial material;
+  /// Power of the contact and bond forces at their points of action [W], of the last step.
+  double contact_power = 0.0;
+  std::vector<Vec3> normals; ///< unit, by triangle; see update_normals()
+
+  double energy() const; ///< stored by contacts and bonds [J]
+};
+
+Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
+               const LinearMaterial& material);
+
+/// Where one sphere touches a patch: one touch shared by the touched features.
+struct PatchTouch {
+  Touch touch;
+  struct Share {
+    Anchor at;
+    double weight;
+  };
+  static constexpr std::size_t most = 8;
+  /// The first n count: weights sum to 1, touch.point is the sum of weight times point.
+  std::array<Share, most> shares;
+  std::size_t n = 0;
+};
+
+/// The faces, edges and corners whose Voronoi region holds the centre share the contact by
+/// their overlap; in a valley a second face enters with the lead it has over the fold, so
+/// that the force is continuous.
+/// @param reach features with a gap below it count [m]
+/// @throws NumericalError when the centre is on the wrong side of the wall
+std::optional<PatchTouch> touch_patch(const Wall& wall, const std::vector<int>& near,
+                                      const Body& body, double reach);
+
+/// Call after x changed and before touch_patch() or add_wall_forces().
+void update_normals(Wall& wall);
+
+/// Find the candidates: spheres whose gap to a triangle is below (g_a + skin) S. Good while
+/// neither a sphere nor a node has moved by half of skin S.
+void rebuild_wall(Wall& wall, const Particles& p, double skin);
+
+/// True when a node has moved by more than `allowed` [m] since the candidates were found.
+bool has_moved(const Wall& wall, double allowed);
+
+/// Bond every particle whose gap to a patch is below limit S [m] to its closest point there:
+/// a particle in a corner is held by both sides. Once for a wall, else std::logic_error.
+void bond_to_wall(Wall& wall, Particles& p, double limit);
+
+/// Add contacts and bonds to p.load and wall.f over the step dt [s] that ends now.
+/// @param yields bonds follow the bond law; otherwise they stay elastic
+void add_wall_forces(const BondMaterial& bond, bool yields, double dt, Particles& p,
+                     Wall& wall, PairLosses& losses);
+
+/// Point and velocity of an anchor.
+Vec3 at(const std::vector<Vec3>& nodal, const WallTopology& t, const Anchor& a);
+
+} // namespace mergel::dem

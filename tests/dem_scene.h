@@ -1,0 +1,144 @@
+/// A handful of particles and their step, for the tests of the DEM core.
+#pragma once
+
+#include "dem/forces.h"
+#include "dem/integrate.h"
+#include "dem/timestep.h"
+
+#include <functional>
+#include <random>
+
+namespace mergel::dem::test {
+
+/// The bond of the paper's Table 1, left column.
+inline BondMaterial bond_of_table_1()
+{
+  BondMaterial b;
+  b.E = 400e6;
+  b.kappa = 2.0;
+  b.sigma_t = 1e6;
+  b.sigma_c = 10e6;
+  b.C = 1.5e6;
+  b.u_c = 0.1e-3;
+  b.theta_c = 0.1e-3;
+  return b;
+}
+
+/// The same bond, too strong to yield.
+inline BondMaterial unbreakable_bond()
+{
+  BondMaterial b = bond_of_table_1();
+  b.sigma_t = b.sigma_c = b.C = 1e15;
+  return b;
+}
+
+/// Never active: its activation gap lies a metre inside the spheres.
+inline LinearMaterial no_contact()
+{
+  LinearMaterial c;
+  c.E = 1.0;
+  c.g_a = -1.0;
+  return c;
+}
+
+inline LinearMaterial contact(double E, double kappa, double mu, double g_a)
+{
+  LinearMaterial c;
+  c.E = E;
+  c.kappa = kappa;
+  c.mu = mu;
+  c.g_a = g_a;
+  return c;
+}
+
+inline Body sphere(const Vec3& x, double R, double rho = 2556.0)
+{
+  Body b;
+  b.x = x;
+  b.R = R;
+  b.m = sphere_mass(R, rho);
+  return b;
+}
+
+/// Uniform in the cube [-1, 1]^3.
+inline Vec3 random_vector(std::mt19937_64& random)
+{
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  const double x = u(random), y = u(random), z = u(random);
+  return {x, y, z};
+}
+
+/// Free particles, their pairs and the step of the leapfrog.
+struct Scene {
+  Particles p;
+  PeriodicCell cell;
+  PairMaterials material;
+  Bonds bonds;
+  Contacts contacts;
+  Motion motion;
+  PairLosses losses;
+  KickWork work;
+  /// What acts beside the pairs, with the step that ends now [s].
+  std::function<void(double)> add_more = [](double) {};
+
+  /// Spheres without friction, bonds, gravity or damping.
+  Scene()
+  {
+    material = {bond_of_table_1(), no_contact()};
+    motion.damping = 0.0;
+  }
+
+  void bond(std::vector<Pair> pairs) { bonds = make_bonds(p, cell, std::move(pairs)); }
+
+  void touch(std::vector<Pair> pairs)
+  {
+    contacts.pairs = std::move(pairs);
+    contacts.shear.assign(contacts.pairs.size(), ContactShear{});
+  }
+
+  /// Forces at the present place, reached by the step dt.
+  void forces(double dt)
+  {
+    clear_loads(p);
+    add_bond_forces(material, cell, dt, p, bonds, losses);
+    add_contact_forces(material.contact, cell, dt, p, contacts, losses);
+    add_more(dt);
+  }
+
+  /// From velocities at t = 0 to velocities at dt/2 and places at dt.
+  void start(double dt)
+  {
+    forces(0.0);
+    kick(p, motion, 0.5 * dt, work);
+    drift(p, dt);
+  }
+
+  void step(double dt)
+  {
+    forces(dt);
+    kick(p, motion, dt, work);
+    drift(p, dt);
+  }
+
+  double stored() const
+  {
+    const PairEnergy e = pair_energy(material, cell, p, bonds, contacts);
+    return e.bonds + e.contacts;
+  }
+
+  Vec3 momentum() const
+  {
+    Vec3 sum = Vec3::Zero();
+    for (const Body& b : p.body) sum += b.m * b.v;
+    return sum;
+  }
+
+  Vec3 angular_momentum() const
+  {
+    Vec3 sum = Vec3::Zero();
+    for (const Body& b : p.body) sum += b.m * b.x.cross(b.v) + b.inertia() * b.omega;
+    return sum;
+  }
+};
+
+} // namespace mergel::dem::test

@@ -1,0 +1,26 @@
+# Who may know whom: apps -> coupling -> { dem, fem }; dem knows no fem and no deal.II or PETSc, fem knows no
+# dem, nobody knows apps. Scans the #include lines of the sources.
+set(failures "")
+function(forbid folder pattern reason)
+  file(GLOB_RECURSE files ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cc)
+  foreach(file ${files})
+    file(STRINGS ${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"](${pattern})")
+    foreach(line ${lines})
+      file(RELATIVE_PATH name ${ROOT} ${file})
+      list(APPEND failures "${name}: ${line}: ${reason}")
+    endforeach()
+  endforeach()
+  set(failures "${failures}" PARENT_SCOPE)
+endfunction()
+
+forbid(dem "fem/|coupling/|apps/" "dem knows nobody")
+forbid(dem "deal\\.II/|petsc" "dem is free of deal.II and PETSc")
+forbid(fem "dem/|coupling/|apps/" "fem knows nobody")
+forbid(coupling "apps/" "nobody knows apps")
+forbid(coupling "deal\\.II/|petsc" "coupling sees plain nodal arrays")
+
+if(failures)
+  list(JOIN failures "\n" text)
+  message(FATAL_ERROR "${text}")
+endif()
+message(STATUS "include rules hold")

@@ -1,0 +1,67 @@
+#include "dem/exact_sum.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+using namespace mergel::dem;
+
+TEST_CASE("Any order of the terms gives the same bits", "[unit][dem]")
+{
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> u(-1.0, 1.0), decade(-12.0, 3.0);
+  std::vector<double> terms(5000);
+  for (double& a : terms) a = u(random) * std::pow(10.0, decade(random));
+
+  const auto sum = [&] {
+    ForceSum s;
+    for (const double a : terms) s.add(a);
+    return s.value();
+  };
+  const double first = sum();
+  double plain = 0.0;
+  for (const double a : terms) plain += a;
+  CHECK(first == Approx(plain).epsilon(1e-12));
+  for (int shuffle = 0; shuffle < 20; ++shuffle) {
+    std::shuffle(terms.begin(), terms.end(), random);
+    REQUIRE(sum() == first);
+  }
+  // and in parts
+  ForceSum low, high;
+  for (std::size_t k = 0; k < terms.size(); ++k) (k % 3 == 0 ? low : high).add(terms[k]);
+  low += high;
+  CHECK(low.value() == first);
+}
+
+TEST_CASE("A sum is exact to its quantum and returns to zero", "[unit][dem]")
+{
+  ForceSum s;
+  for (int k = 0; k < 10000; ++k) s.add(4000.0); // far beyond 64 bits of quanta
+  CHECK(s.value() == 4e7);
+  for (int k = 0; k < 10000; ++k) s.add(-4000.0);
+  CHECK(s.value() == 0.0);
+  s.add(0.1);
+  CHECK(std::abs(s.value() - 0.1) <= 0x1p-51);
+  s.clear();
+  CHECK(s.value() == 0.0);
+}
+
+TEST_CASE("A term out of range or undefined throws instead of being clipped", "[unit][dem]")
+{
+  ForceSum s;
+  CHECK_NOTHROW(s.add(4095.9));
+  CHECK_THROWS_AS(s.add(4096.0), mergel::NumericalError);
+  CHECK_THROWS_AS(s.add(-4096.0), mergel::NumericalError);
+  CHECK_THROWS_AS(s.add(std::numeric_limits<double>::quiet_NaN()), mergel::NumericalError);
+  CHECK_THROWS_AS(s.add(std::numeric_limits<double>::infinity()), mergel::NumericalError);
+  CHECK(s.value() == Approx(4095.9).epsilon(1e-15)); // what threw was not added
+
+  EnergySum e;
+  CHECK_NOTHROW(e.add(-1.999));
+  CHECK_THROWS_AS(e.add(2.0), mergel::NumericalError);
+  VectorSum v;
+  CHECK_THROWS_AS(v.add({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}),
+                  mergel::NumericalError);
+}

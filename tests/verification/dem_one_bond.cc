@@ -1,0 +1,157 @@
+/// One bond under imposed motion against its closed forms: design, section 12 (the paper's
+/// Table 1 left, R = 30 mm), and Eqs. 2, 3, 6 of the paper.
+#include "tests/dem_scene.h"
+
+#include <catch2/catch.hpp>
+
+using namespace mergel::dem;
+using namespace mergel::dem::test;
+
+namespace {
+
+constexpr double R = 30e-3, dt = 1e-4;
+
+/// A bonded pair along x whose motion is imposed.
+struct DrivenBond {
+  Scene s;
+
+  explicit DrivenBond(double D_broken = 0.99)
+  {
+    s.p.add(sphere({0, 0, 0}, R));
+    s.p.add(sphere({2.0 * R, 0, 0}, R));
+    s.material.bond.D_broken = D_broken;
+    s.bond({{0, 1}});
+  }
+  BondReading move(const Vec3& du, const Vec3& dtheta_i, const Vec3& dtheta_j)
+  {
+    s.p.body[1].v = du / dt;
+    s.p.body[1].x += du;
+    s.p.body[0].omega = dtheta_i / dt;
+    s.p.body[1].omega = dtheta_j / dt;
+    s.forces(dt);
+    return read_bond(s.bonds, 0, s.p, s.cell, s.material.bond);
+  }
+  /// Pull by du [m].
+  double pull(double du) { return move({du, 0, 0}, {0, 0, 0}, {0, 0, 0}).N; }
+  /// Shear by du: both turn alike, so the contact points part along y and the normal stays.
+  double shear(double du)
+  {
+    const Vec3 turn(0, 0, -du / (2.0 * R));
+    const Vec3 V = move({0, 0, 0}, turn, turn).V;
+    return V.norm() * (V.y() < 0.0 ? -1.0 : 1.0);
+  }
+  /// Bend by dtheta about z: they turn against each other.
+  double bend(double dtheta)
+  {
+    return move({0, 0, 0}, {0, 0, -0.5 * dtheta}, {0, 0, 0.5 * dtheta}).M.z();
+  }
+};
+
+using Drive = double (DrivenBond::*)(double);
+
+struct Mode {
+  const char* name;
+  Drive drive;
+  double peak, at, tail; ///< strength, motion at yield, softening scale
+};
+
+const Mode modes[] = {
+    {"tension", &DrivenBond::pull, 314.159265, 0.15e-3, 0.1e-3},
+    {"compression", &DrivenBond::pull, -3141.59265, -1.5e-3, 0.1e-3},
+    {"shear", &DrivenBond::shear, 471.238898, 0.45e-3, 0.1e-3},
+    {"bending", &DrivenBond::bend, 0.785398163, 15e-3, 0.1e-3},
+};
+
+/// Drive on to `target` in n equal steps; returns the load.
+double drive_to(DrivenBond& b, const Mode& mode, double& now, double target, int n)
+{
+  double load = 0.0;
+  const double step = (target - now) / n;
+  for (int k = 0; k < n; ++k) load = (b.*mode.drive)(step);
+  now = target;
+  return load;
+}
+
+} // namespace
+
+TEST_CASE("One bond rises to its strength and falls as exp(-(u-u_y)/u_c)",
+          "[verification][dem]")
+{
+  for (const Mode& mode : modes) {
+    CAPTURE(mode.name);
+    DrivenBond b;
+    double u = 0.0;
+    const double sign = mode.at > 0.0 ? 1.0 : -1.0;
+    CHECK(drive_to(b, mode, u, 0.5 * mode.at, 7) == Approx(0.5 * mode.peak).epsilon(1e-6));
+    CHECK(drive_to(b, mode, u, mode.at, 7) == Approx(mode.peak).epsilon(1e-6));
+    for (const double tails : {0.3, 1.0, 2.0, 4.0}) {
+      // Exact for any step: the effective load is constant, and damage is a product of
+      // exponentials.
+      const double load = drive_to(b, mode, u, mode.at + sign * tails * mode.tail, 5);
+      CHECK(load == Approx(mode.peak * std::exp(-tails)).epsilon(1e-6));
+    }
+    CHECK(b.s.losses.broken == 0);
+    drive_to(b, mode, u, mode.at + sign * 4.604 * mode.tail, 1);
+    CHECK(b.s.losses.broken == 0);
+    // D = 0.99 is reached ln 100 = 4.60517 softening scales past yield
+    CHECK(drive_to(b, mode, u, mode.at + sign * 4.606 * mode.tail, 1) == 0.0);
+    CHECK(b.s.losses.broken == 1);
+    CHECK(b.s.p.n_bonds[0] == 0);
+    CHECK(b.s.p.n_bonds[1] == 0);
+  }
+}
+
+TEST_CASE("Both ways of bending flow agree where only bending acts", "[verification][dem]")
+{
+  DrivenBond b;
+  b.s.material.bond.flow = BendingFlow::published;
+  double theta = 0.0;
+  CHECK(drive_to(b, modes[3], theta, 15.1e-3, 100) ==
+        Approx(0.785398163 * std::exp(-1.0)).epsilon(1e-6));
+}
+
+TEST_CASE("A damaged bond unloads along (1-D) k", "[verification][dem]")
+{
+  for (const Mode& mode : modes) {
+    CAPTURE(mode.name);
+    DrivenBond b;
+    double u = 0.0;
+    const double sign = mode.at > 0.0 ? 1.0 : -1.0, past = sign * 0.7 * mode.tail;
+    const double top = drive_to(b, mode, u, mode.at + past, 40);
+    const double k = mode.peak / mode.at;
+    const double back = 0.3 * mode.at;
+    const double lower = drive_to(b, mode, u, u - back, 3);
+    CHECK((top - lower) / back == Approx(std::exp(-0.7) * k).epsilon(1e-6));
+    // and reaches zero at the plastic part of the motion; 1e-9 of the peak is round-off of
+    // the place
+    CHECK(drive_to(b, mode, u, past, 3) == Approx(0.0).margin(1e-9 * std::abs(mode.peak)));
+    // and comes back to where it left
+    CHECK(drive_to(b, mode, u, mode.at + past, 3) == Approx(top).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("To full damage one bond takes up strength (u_y/2 + u_c)", "[verification][dem]")
+{
+  for (const Mode& mode : modes) {
+    CAPTURE(mode.name);
+    const double sign = mode.at > 0.0 ? 1.0 : -1.0;
+    const auto lost = [&](int n) {
+      DrivenBond b(1.0 - 1e-9);
+      double u = 0.0;
+      drive_to(b, mode, u, mode.at, 5);
+      const double elastic = b.s.stored();
+      CHECK(elastic == Approx(0.5 * mode.peak * mode.at).epsilon(1e-6));
+      drive_to(b, mode, u, mode.at + sign * 21.0 * mode.tail, n);
+      CHECK(b.s.losses.broken == 1);
+      return b.s.losses.plastic.value() + b.s.losses.residue.value();
+    };
+    const double exact = mode.peak * (0.5 * mode.at + sign * mode.tail);
+    const double e_1 = std::abs(lost(400) - exact) / exact;
+    const double e_2 = std::abs(lost(800) - exact) / exact;
+    // Trapezoidal work of exp(-s): relative error of the tail (ds)^2/12 with ds = 21/n.
+    const double tail_share = mode.tail / std::abs(0.5 * mode.at + sign * mode.tail);
+    CAPTURE(e_1, e_2);
+    CHECK(e_1 < 1.1 * tail_share * std::pow(21.0 / 400, 2) / 12.0 + 1e-8);
+    CHECK(e_1 / e_2 == Approx(4.0).epsilon(0.05));
+  }
+}
