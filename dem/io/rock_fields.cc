@@ -1,0 +1,115 @@
+#include "dem/io/rock_fields.h"
+
+#include <cmath>
+
+namespace mergel::dem {
+
+namespace {
+
+Field scalar(const std::string& name, std::vector<double> values)
+{
+  return {name, 1, std::move(values)};
+}
+
+Field vector(const std::string& name, std::size_t n)
+{
+  return {name, 3, std::vector<double>(3 * n)};
+}
+
+void put(Field& f, std::size_t k, const Vec3& a)
+{
+  for (std::size_t c = 0; c < 3; ++c) f.values[3 * k + c] = a[static_cast<Eigen::Index>(c)];
+}
+
+} // namespace
+
+std::vector<double> particle_damage(const Rock& rock)
+{
+  std::vector<double> sum(rock.particles.size(), 0.0), count(rock.particles.size(), 0.0);
+  for (std::size_t b = 0; b < rock.bonds.size(); ++b)
+    for (const Index p : {rock.bonds.pairs[b].i, rock.bonds.pairs[b].j}) {
+      sum[p] += 1.0 - rock.bonds.intact(b);
+      count[p] += 1.0;
+    }
+  for (std::size_t p = 0; p < sum.size(); ++p)
+    if (count[p] > 0.0) sum[p] /= count[p];
+  return sum;
+}
+
+void write_particles(const std::filesystem::path& file, const Rock& rock,
+                     const std::vector<Vec3>& x_0)
+{
+  const Particles& p = rock.particles;
+  const std::size_t n = p.n_owned;
+  std::vector<Vec3> x;
+  Field radius = scalar("radius", std::vector<double>(n)),
+        S = scalar("S", std::vector<double>(n)), id = scalar("id", std::vector<double>(n));
+  Field velocity = vector("velocity", n), force = vector("force", n),
+        displacement = vector("displacement", n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Body& b = p.body[k];
+    x.push_back(b.x);
+    radius.values[k] = b.R;
+    S.values[k] = b.S;
+    id.values[k] = static_cast<double>(p.id[k]);
+    put(velocity, k, b.v);
+    put(force, k, p.load[k].f);
+    put(displacement, k, b.x - x_0[k]);
+  }
+  write_points(file, x,
+               {radius, velocity, scalar("damage", particle_damage(rock)), force, S, id,
+                displacement});
+}
+
+void write_bonds(const std::filesystem::path& file, const Rock& rock)
+{
+  const std::size_t n = rock.bonds.size();
+  std::vector<Vec3> x;
+  for (const Body& b : rock.particles.body) x.push_back(b.x);
+  std::vector<std::array<Index, 2>> lines;
+  Field N = scalar("N", std::vector<double>(n)), D = scalar("D", std::vector<double>(n));
+  Field V = vector("V", n), M = vector("M", n);
+  for (std::size_t b = 0; b < n; ++b) {
+    const Pair& q = rock.bonds.pairs[b];
+    lines.push_back({q.i, q.j});
+    const BondReading r =
+        read_bond(rock.bonds, b, rock.particles, rock.cell, rock.material.bond);
+    N.values[b] = r.N;
+    D.values[b] = r.D;
+    put(V, b, r.V);
+    put(M, b, r.M);
+  }
+  write_lines(file, x, lines, {N, V, M, D});
+}
+
+void write_pile(const std::filesystem::path& file, const Pile& pile, double z_top)
+{
+  constexpr int n_around = 48; // facets of 3.75 degrees over the half
+  std::vector<Vec3> x{{pile.x_axis, pile.y_axis, pile.z_tip}};
+  std::vector<std::array<Index, 3>> triangles;
+  const double top = std::max(z_top, pile.z_shoulder());
+  for (int k = 0; k <= n_around; ++k) {
+    const double phi = pi * k / n_around;
+    const Vec3 rim(pile.x_axis + pile.R * std::cos(phi),
+                   pile.y_axis + pile.R * std::sin(phi), 0.0);
+    x.push_back(rim + Vec3(0.0, 0.0, pile.z_shoulder()));
+    x.push_back(rim + Vec3(0.0, 0.0, top));
+  }
+  const auto last = static_cast<Index>(x.size());
+  x.push_back({pile.x_axis, pile.y_axis, top});
+  for (Index k = 0; k < n_around; ++k) {
+    const Index a = 1 + 2 * k, b = a + 2; // shoulder here and next, their tops one further
+    triangles.push_back({0, a, b});
+    triangles.push_back({a, b + 1, b});
+    triangles.push_back({a, a + 1, b + 1});
+    triangles.push_back({a + 1, last, b + 1});
+  }
+  // The cut face of the half pile.
+  const Index right = 1, left = 1 + 2 * n_around;
+  triangles.push_back({0, left, right});
+  triangles.push_back({right, left, left + 1});
+  triangles.push_back({right, left + 1, right + 1});
+  write_surface(file, x, triangles, {});
+}
+
+} // namespace mergel::dem

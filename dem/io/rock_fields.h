@@ -1,0 +1,25 @@
+/// The rock as ParaView sees it.
+#pragma once
+
+#include "dem/io/vtk.h"
+#include "dem/step.h"
+
+namespace mergel::dem {
+
+/// Points with radius [m], velocity [m/s], damage (mean over the bonds that the particle
+/// was given; 0 without) [-], force (resultant) [N], S [-], id and displacement from x_0
+/// [m].
+void write_particles(const std::filesystem::path& file, const Rock& rock,
+                     const std::vector<Vec3>& x_0);
+
+/// Lines between particles that were ever bonded, with N (tension positive) [N], V [N], M
+/// [N m] and D.
+void write_bonds(const std::filesystem::path& file, const Rock& rock);
+
+/// The half of the pile at y >= 0, up to z_top [m].
+void write_pile(const std::filesystem::path& file, const Pile& pile, double z_top);
+
+/// Mean damage of the bonds that each particle was given.
+std::vector<double> particle_damage(const Rock& rock);
+
+} // namespace mergel::dem

@@ -1,0 +1,142 @@
+#include "dem/io/sample_file.h"
+
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <unistd.h>
+
+using namespace mergel;
+using namespace mergel::dem;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own, gone with the test.
+struct Folder {
+  fs::path path =
+      fs::temp_directory_path() / ("mergel_sample_" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+Sample three_grains()
+{
+  Sample s;
+  for (int k = 0; k < 3; ++k) {
+    Body b;
+    b.x = Vec3(0.1 * k, 1.0 / 3.0, -0.7);
+    b.R = 0.04 + 0.001 * k;
+    b.S = 3.0 + k;
+    b.m = sphere_mass(b.R, 2556.0);
+    s.packing.particles.add(b);
+  }
+  s.packing.porosity = 0.52;
+  s.packing.whole_porosity = 0.54;
+  s.packing.overlap = 1e-4;
+  s.bonding = {{{0, 1, {}}, {1, 2, {}}}, 1.5e-5};
+  s.recipe = {{"porosity", "0.52"}, {"seed", "1"}};
+  return s;
+}
+
+std::string refusal(const fs::path& file)
+{
+  try {
+    read_sample(file);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "read";
+}
+
+void overwrite_byte(const fs::path& file, std::streamoff at, char value)
+{
+  std::fstream f(file, std::ios::in | std::ios::out | std::ios::binary);
+  f.seekp(at);
+  f.put(value);
+}
+
+} // namespace
+
+TEST_CASE("a sample is read back bit for bit", "[unit][dem]")
+{
+  const Folder folder;
+  const Sample s = three_grains();
+  write_sample(folder.path / "s.h5", s);
+  const Sample r = read_sample(folder.path / "s.h5");
+  REQUIRE(r.packing.particles.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Body &a = s.packing.particles.body[i], &b = r.packing.particles.body[i];
+    CHECK(a.x == b.x);
+    CHECK(a.R == b.R);
+    CHECK(a.S == b.S);
+    CHECK(a.m == b.m);
+    CHECK(r.packing.particles.id[i] == i);
+  }
+  CHECK(r.bonding.pairs == s.bonding.pairs);
+  CHECK(r.bonding.limit == s.bonding.limit);
+  CHECK(r.packing.porosity == s.packing.porosity);
+  CHECK(r.recipe == s.recipe);
+  CHECK(difference(r, s.recipe).empty());
+}
+
+TEST_CASE("a sample of another recipe is told apart by its first difference", "[unit][dem]")
+{
+  const Sample s = three_grains();
+  CHECK(difference(s, {{"porosity", "0.5"}, {"seed", "2"}}) ==
+        "was made with porosity = 0.52, the case asks for 0.5");
+  CHECK(difference(s, {{"porosity", "0.52"}}) ==
+        "was made by another version of the program");
+}
+
+TEST_CASE("what is no sample is refused with the reason", "[unit][dem]")
+{
+  const Folder folder;
+  const fs::path file = folder.path / "s.h5";
+  CHECK(refusal(file) == "there is no such file");
+  CHECK(refusal(folder.path) == "is not a file");
+
+  std::ofstream(file) << "time [s],depth [m]\n";
+  CHECK(refusal(file).find("is no sample: it is not an HDF5 file") == 0);
+
+  write_sample(file, three_grains());
+  fs::resize_file(file, fs::file_size(file) / 2);
+  CHECK(refusal(file).find("is damaged or truncated") == 0);
+}
+
+TEST_CASE("no changed byte of a sample is read as if nothing were wrong", "[unit][dem]")
+{
+  const Folder folder;
+  const fs::path file = folder.path / "s.h5";
+  write_sample(file, three_grains());
+  std::ifstream in(file, std::ios::binary);
+  const std::string good((std::istreambuf_iterator<char>(in)), {});
+  in.close();
+  const Sample s = three_grains();
+
+  std::size_t refused = 0, same = 0;
+  for (std::size_t at = 0; at < good.size(); at += 7) {
+    overwrite_byte(file, static_cast<std::streamoff>(at),
+                   static_cast<char>(good[at] ^ 0x41));
+    std::string why = "read";
+    Sample r;
+    try {
+      r = read_sample(file);
+    } catch (const InputError& e) {
+      why = e.what();
+    }
+    if (why != "read")
+      ++refused;
+    else { // a byte of padding or of unused space: the contents must be those written
+      ++same;
+      REQUIRE(r.packing.particles.size() == 3);
+      CHECK(r.packing.particles.body[1].x == s.packing.particles.body[1].x);
+      CHECK(r.packing.particles.body[2].R == s.packing.particles.body[2].R);
+      CHECK(r.bonding.pairs == s.bonding.pairs);
+      CHECK(r.bonding.limit == s.bonding.limit);
+      CHECK(r.recipe == s.recipe);
+    }
+    overwrite_byte(file, static_cast<std::streamoff>(at), good[at]);
+  }
+  CHECK(refused > 100); // the data, the attributes and the structure of the file
+  CHECK(read_sample(file).recipe == s.recipe);
+}
