@@ -1,0 +1,291 @@
+#include "fem/far_field.h"
+
+#include "fem/boundary_ids.h"
+#include "fem/elastic_solid.h"
+#include "fem/far_field_mesh.h"
+#include "fem/linear_solver.h"
+#include "fem/output.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <stdexcept>
+#include <tuple>
+
+namespace mergel::fem {
+namespace {
+
+FarFieldGeometry geometry(const FarFieldSpec& s)
+{
+  return {s.chamber_diameter / 2.0, s.chamber_height, s.region_diameter / 2.0,
+          s.region_height,          s.cell_size,      s.growth};
+}
+
+SolidProperties properties(const FarFieldSpec& s)
+{
+  const double gamma = s.rho * s.gravity, K0 = s.K0;
+  const auto geostatic = [gamma, K0](const dealii::Point<3>& x) {
+    dealii::SymmetricTensor<2, 3> sigma;
+    sigma[2][2] = gamma * x[2];
+    sigma[0][0] = sigma[1][1] = K0 * sigma[2][2];
+    return sigma;
+  };
+  return {{s.E, s.nu}, s.rho, Vec3(0.0, 0.0, -s.gravity), geostatic};
+}
+
+Supports supports(const FarFieldSpec& s)
+{
+  return {{boundary::bottom, Support::fixed},
+          {boundary::symmetry, Support::roller},
+          {boundary::outer,
+           s.outer == FarFieldSpec::Outer::fixed ? Support::fixed : Support::roller}};
+}
+
+/// A quad of the interface, counter-clockwise as seen from the DEM region, by interface
+/// node.
+using Quad = std::array<int, 4>;
+
+/// Which diagonal splits the quad: true for corners 0 and 2. The shorter; when they are
+/// equal, the one through the lowest corner nearest to x = 0, then to y = 0, so that mirror
+/// images in x are split in mirror image.
+bool splits_from_first(const Quad& quad, const std::vector<Vec3>& x)
+{
+  const auto corner = [&](int k) -> const Vec3& {
+    return x[static_cast<std::size_t>(quad[static_cast<std::size_t>(k)])];
+  };
+  const double d_02 = (corner(2) - corner(0)).norm(), d_13 = (corner(3) - corner(1)).norm();
+  const double close = 1e-9 * (d_02 + d_13);
+  if (std::abs(d_02 - d_13) > close) return d_02 < d_13;
+
+  const auto key = [&](int k) {
+    const Vec3& p = corner(k);
+    return std::tuple(std::llround(p.z() / close), std::llround(std::abs(p.x()) / close),
+                      std::llround(p.y() / close));
+  };
+  int first = 0;
+  for (int k = 1; k < 4; ++k)
+    if (key(k) < key(first)) first = k;
+  return first % 2 == 0;
+}
+
+/// The border, and the solid's node behind each of its nodes (ascending).
+std::pair<InterfaceMesh, std::vector<std::uint32_t>>
+make_interface(const ElasticSolid& solid)
+{
+  std::vector<std::uint32_t> nodes = solid.nodes_on(boundary::interface_side);
+  const auto floor = solid.nodes_on(boundary::interface_bottom);
+  nodes.insert(nodes.end(), floor.begin(), floor.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+
+  InterfaceMesh mesh;
+  for (const auto a : nodes) mesh.x.push_back(solid.discrete().x[a]);
+
+  for (const auto& cell : solid.dofs().active_cell_iterators())
+    for (const unsigned int f : cell->face_indices()) {
+      const auto face = cell->face(f);
+      const auto id = static_cast<int>(face->boundary_id());
+      if (!face->at_boundary() ||
+          (id != boundary::interface_side && id != boundary::interface_bottom))
+        continue;
+      Quad quad{};
+      constexpr std::array<unsigned int, 4> around = {0, 1, 3,
+                                                      2}; // deal.II's are lexicographic
+      for (std::size_t k = 0; k < 4; ++k)
+        quad[k] =
+            static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(),
+                                              face->vertex_dof_index(around[k], 0) / 3) -
+                             nodes.begin());
+      const auto x = [&](std::size_t k) {
+        return mesh.x[static_cast<std::size_t>(quad[k])];
+      };
+      const dealii::Point<3> c = cell->center();
+      const Vec3 away = x(0) + x(1) + x(2) + x(3) - 4.0 * Vec3(c[0], c[1], c[2]);
+      if ((x(2) - x(0)).cross(x(3) - x(1)).dot(away) < 0.0) std::swap(quad[1], quad[3]);
+
+      const std::size_t s = splits_from_first(quad, mesh.x) ? 0 : 1;
+      mesh.triangles.push_back({quad[s], quad[s + 1], quad[(s + 2) % 4]});
+      mesh.triangles.push_back({quad[s], quad[(s + 2) % 4], quad[(s + 3) % 4]});
+      mesh.boundary.insert(mesh.boundary.end(), 2, id);
+    }
+  return {std::move(mesh), std::move(nodes)};
+}
+
+void require(bool holds, const char* what, double value, const char* allowed_and_remedy)
+{
+  if (holds) return;
+  std::ostringstream message;
+  message << "far field: " << what << " = " << value << ": " << allowed_and_remedy;
+  throw std::invalid_argument(message.str());
+}
+
+} // namespace
+
+void FarFieldSpec::check() const
+{
+  // Written so that an unset value (NaN) fails too.
+  require(region_diameter > 0.0, "region diameter", region_diameter,
+          "must be set, in m, > 0");
+  require(region_height > 0.0, "region height", region_height, "must be set, in m, > 0");
+  require(chamber_diameter > region_diameter, "chamber diameter", chamber_diameter,
+          "must exceed the region diameter; enlarge the chamber or shrink the DEM region");
+  require(chamber_height > region_height, "chamber height", chamber_height,
+          "must exceed the region height; enlarge the chamber or shrink the DEM region");
+  require(cell_size > 0.0 && cell_size <= region_diameter / 2.0, "cell size", cell_size,
+          "must be > 0 and at most the radius of the DEM region, in m");
+  require(growth >= 1.0 && growth <= 3.0, "growth", growth,
+          "must lie in [1, 3]; 1.4 is a good choice");
+  require(E > 0.0 && std::isfinite(E), "Young's modulus", E, "must be set, in Pa, > 0");
+  require(nu > -1.0 && nu < 0.5, "Poisson's ratio", nu,
+          "must satisfy -1 < nu < 0.5; use 0.49 for a nearly incompressible rock");
+  require(rho > 0.0 && std::isfinite(rho), "bulk density", rho,
+          "must be set, in kg/m^3, > 0");
+  require(K0 >= 0.0 && std::isfinite(K0), "K0", K0,
+          "must be set, >= 0; nu/(1-nu) is the state at rest of this material");
+  require(gravity >= 0.0 && std::isfinite(gravity), "gravity", gravity,
+          "must be >= 0, in m/s^2; it points downwards");
+  require(damping >= 0.0 && damping < 1.0, "damping", damping,
+          "must satisfy 0 <= damping < 1");
+  constexpr double most_cells = 2e6;
+  const double n = layers(geometry(*this)).n_cells();
+  require(n <= most_cells, "number of cells that the cell size asks for", n,
+          "must be at most 2e6; is the cell size in the right unit?");
+}
+
+struct FarField::Parts {
+  explicit Parts(const FarFieldSpec& spec)
+      : count(layers(geometry(spec))), solid(meshed(spec), properties(spec), supports(spec))
+  {
+    std::tie(interface, nodes) = make_interface(solid);
+    motion = std::make_unique<Leapfrog>(solid.discrete(), spec.damping, nodes);
+  }
+
+  dealii::Triangulation<3>& meshed(const FarFieldSpec& spec)
+  {
+    make_far_field_mesh(geometry(spec), count, mesh);
+    return mesh;
+  }
+
+  FarFieldLayers count;
+  dealii::Triangulation<3> mesh;
+  ElasticSolid solid;
+  InterfaceMesh interface;
+  std::vector<std::uint32_t> nodes; // of the solid, behind interface.x
+  std::unique_ptr<Leapfrog> motion;
+};
+
+FarField::FarField(const FarFieldSpec& spec)
+{
+  spec.check();
+  parts_ = std::make_unique<Parts>(spec);
+}
+FarField::~FarField() = default;
+FarField::FarField(FarField&&) noexcept = default;
+FarField& FarField::operator=(FarField&&) noexcept = default;
+
+const InterfaceMesh& FarField::interface() const
+{
+  return parts_->interface;
+}
+
+void FarField::interface_velocity(std::vector<Eigen::Vector3d>& v) const
+{
+  v.resize(parts_->nodes.size());
+  for (std::size_t k = 0; k < v.size(); ++k) v[k] = at(motion().v, parts_->nodes[k]);
+}
+
+void FarField::interface_displacement(std::vector<Eigen::Vector3d>& u) const
+{
+  u.resize(parts_->nodes.size());
+  for (std::size_t k = 0; k < u.size(); ++k) u[k] = at(motion().u, parts_->nodes[k]);
+}
+
+std::vector<Eigen::Vector3d> FarField::initial_interface_forces() const
+{
+  const DiscreteSolid& s = parts_->solid.discrete();
+  std::vector<Eigen::Vector3d> f;
+  f.reserve(parts_->nodes.size());
+  for (const auto a : parts_->nodes) f.push_back(at(s.f_initial, a) - at(s.f_gravity, a));
+  return f;
+}
+
+void FarField::solve_static(std::span<const Eigen::Vector3d> f_interface)
+{
+  const DiscreteSolid& s = parts_->solid.discrete();
+  Nodal f = s.f_gravity - s.f_initial;
+  for (std::size_t k = 0; k < std::min(f_interface.size(), parts_->nodes.size()); ++k)
+    f.col(parts_->nodes[k]).head<3>() += f_interface[k].array();
+  parts_->motion->rest_at(fem::solve_static(s, f).u, f_interface);
+}
+
+void FarField::step(double dt, std::span<const Eigen::Vector3d> f_interface)
+{
+  parts_->motion->step(dt, f_interface);
+}
+
+double FarField::stable_time_step(std::span<const double> k_interface) const
+{
+  const DiscreteSolid& s = parts_->solid.discrete();
+  Eigen::ArrayXd k_extra;
+  if (!k_interface.empty()) {
+    if (k_interface.size() != parts_->nodes.size())
+      throw std::invalid_argument(
+          "stable time step of the far field: one wall stiffness per "
+          "interface node needed");
+    k_extra = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(s.n_nodes()));
+    for (std::size_t k = 0; k < k_interface.size(); ++k)
+      k_extra(parts_->nodes[k]) = k_interface[k];
+  }
+  return 2.0 / largest_frequency(s, k_extra); // > 0: the interface can move
+}
+
+double FarField::unbalanced_ratio() const
+{
+  return parts_->motion->unbalanced_ratio();
+}
+Energies FarField::energies() const
+{
+  return parts_->motion->energies();
+}
+const Motion& FarField::motion() const
+{
+  return parts_->motion->motion();
+}
+void FarField::restore(Motion state)
+{
+  parts_->motion->restore(std::move(state));
+}
+
+std::size_t FarField::n_cells() const
+{
+  return parts_->mesh.n_active_cells();
+}
+std::size_t FarField::n_nodes() const
+{
+  return parts_->solid.discrete().n_nodes();
+}
+double FarField::mass() const
+{
+  return parts_->solid.discrete().m.sum();
+}
+
+std::string FarField::summary() const
+{
+  const FarFieldLayers& n = parts_->count;
+  std::ostringstream s;
+  s << "far field: " << n_cells() << " cells, " << n_nodes() << " nodes, "
+    << parts_->interface.triangles.size() << " interface triangles (" << n.n_around
+    << " around, " << n.n_ring << " + " << n.n_radial << " rings, " << n.n_upper << " + "
+    << n.n_lower << " layers)";
+  return s.str();
+}
+
+void FarField::write_vtu(const std::string& path) const
+{
+  fem::write_vtu(parts_->solid, motion().u, motion().v, path);
+}
+
+} // namespace mergel::fem

@@ -1,0 +1,112 @@
+/// The linear elastic far field around a DEM region: what coupling/ and apps/ see of fem/.
+#pragma once
+
+#include "fem/leapfrog.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mergel::fem {
+
+/// Half cylinder of rock around a DEM region that is itself a half cylinder with its top at
+/// the ground surface. Axis z up, surface z = 0, cut plane y = 0, rock at y >= 0. What has
+/// no default must be set.
+struct FarFieldSpec {
+  static constexpr double unset = std::numeric_limits<double>::quiet_NaN();
+
+  double chamber_diameter = unset, chamber_height = unset; ///< [m]
+  double region_diameter = unset, region_height = unset;   ///< [m], less than the chamber's
+  double cell_size = unset; ///< edge of the cells at the interface [m]
+  double growth =
+      1.4; ///< ratio of neighbouring cell sizes away from the interface [-], >= 1
+
+  double E = unset;   ///< Young's modulus [Pa]
+  double nu = unset;  ///< Poisson's ratio [-]
+  double rho = unset; ///< bulk density, pores included [kg/m^3]
+  double K0 = unset; ///< initial sigma_h/sigma_v [-], >= 0; nu/(1-nu) at rest under rollers
+  double gravity = 9.81; ///< downwards, [m/s^2], >= 0
+  double damping = 0.7;  ///< local non-viscous damping [-], 0 <= damping < 1
+
+  enum class Outer {
+    roller, ///< no radial displacement at r = R_c
+    fixed,  ///< no displacement at r = R_c
+  } outer = Outer::roller;
+
+  /// Throws std::invalid_argument naming the value, what is allowed and a remedy.
+  void check() const;
+};
+
+/// The border as the DEM sees it: an open surface whose rim lies in z = 0 and y = 0.
+struct InterfaceMesh {
+  std::vector<Eigen::Vector3d> x; ///< reference positions of its nodes [m]
+  std::vector<std::array<int, 3>>
+      triangles;             ///< into x; normals (right hand) into the DEM region
+  std::vector<int> boundary; ///< per triangle: an interface id of boundary_ids.h
+};
+
+/// Linear elastic, small strain; geostatic initial stress sigma_v = rho g z, sigma_h = K0
+/// sigma_v (tension positive); base fixed, cut plane and (by default) chamber wall on
+/// rollers, top free. Replicated: every rank that holds one computes the same bits. Needs a
+/// fem::Runtime.
+class FarField {
+public:
+  /// Builds the mesh and assembles. Throws as FarFieldSpec::check does.
+  explicit FarField(const FarFieldSpec& spec);
+  ~FarField();
+  FarField(FarField&&) noexcept;
+  FarField& operator=(FarField&&) noexcept;
+
+  const InterfaceMesh& interface() const;
+
+  /// v^{n+1/2} [m/s] and u^{n+1} [m] of the interface nodes, in the order of interface().x.
+  /// Resizes its argument; no allocation once the size fits.
+  void interface_velocity(std::vector<Eigen::Vector3d>& v) const;
+  void interface_displacement(std::vector<Eigen::Vector3d>& u) const;
+
+  /// Forces [N] on the interface nodes under which the initial stress is in equilibrium
+  /// with u = 0: what a DEM region with that same stress would exert.
+  std::vector<Eigen::Vector3d> initial_interface_forces() const;
+
+  /// Static equilibrium under forces [N] on the interface nodes: sets u, and v = 0; the
+  /// work sums start from zero. Throws std::runtime_error when the solver does not
+  /// converge.
+  void solve_static(std::span<const Eigen::Vector3d> f_interface);
+
+  /// One leapfrog step: kick with the forces [N] on the interface nodes at the present u =
+  /// u^n, which sets v^{n+1/2}, then drift, which sets u^{n+1}. See fem/leapfrog.h.
+  void step(double dt, std::span<const Eigen::Vector3d> f_interface);
+
+  /// 2/omega_max [s], without any factor of safety (none for damping either).
+  /// @param k_interface wall springs on the interface nodes [N/m], in the order of
+  ///   interface().x: for each contact its stiffness times the shape function; may be empty
+  double stable_time_step(std::span<const double> k_interface = {}) const;
+
+  double unbalanced_ratio() const; ///< see Leapfrog::unbalanced_ratio
+  Energies energies() const;       ///< see Energies in fem/leapfrog.h
+
+  const Motion& motion() const; ///< the state: all that a restart needs
+  void restore(Motion state);   ///< throws std::invalid_argument if of another mesh
+
+  std::size_t n_cells() const;
+  std::size_t n_nodes() const;
+  double mass() const; ///< of the half model's far field [kg]
+
+  /// One sentence with counts and sizes, for the log.
+  std::string summary() const;
+
+  /// Displacement, velocity and stress (initial stress included); see fem/output.h.
+  void write_vtu(const std::string& path) const;
+
+private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+} // namespace mergel::fem

@@ -1,0 +1,41 @@
+/// The mesh of the far field: half a chamber less the DEM region, hexahedra.
+///
+/// Axis z up, ground surface z = 0, cut plane y = 0, rock at y >= 0. The plan (see
+/// meshes/README.md) is an O-grid under the DEM region and rings around it, mirror
+/// symmetric in x; it is extruded over the depth of the DEM region (rings only) and below
+/// it (all of it).
+#pragma once
+
+#include <deal.II/grid/tria.h>
+
+namespace mergel::fem {
+
+/// Size of the half model. The user gives sizes; layers() derives the counts.
+struct FarFieldGeometry {
+  double chamber_radius, chamber_height; ///< R_c, H_c [m]
+  double region_radius, region_height;   ///< R_d, H_d [m], less than the chamber's
+  double cell_size;                      ///< edge of the cells at the interface [m]
+  double growth; ///< ratio of neighbouring cells away from it [-], >= 1
+};
+
+/// Numbers of cells in each direction.
+struct FarFieldLayers {
+  int n_around; ///< over the 180 degrees; a multiple of 4, at least 8
+  int n_ring;   ///< rings between the rectangular core and r = R_d
+  int n_radial; ///< graded rings from R_d to R_c
+  int n_upper;  ///< layers over the depth of the DEM region
+  int n_lower;  ///< graded layers below it
+
+  /// Cells of the whole mesh; a double, because a mistaken cell size must not overflow.
+  double n_cells() const;
+};
+
+/// Counts whose cells come closest to the asked size and growth.
+FarFieldLayers layers(const FarFieldGeometry& g);
+
+/// Fill an empty triangulation and set the ids of boundary_ids.h. All nodes of the
+/// interface lie at r = R_d or z = -H_d.
+void make_far_field_mesh(const FarFieldGeometry& g, const FarFieldLayers& n,
+                         dealii::Triangulation<3>& mesh);
+
+} // namespace mergel::fem

@@ -1,0 +1,80 @@
+/// Explicit motion of an elastic solid: leapfrog with local non-viscous damping.
+#pragma once
+
+#include "fem/discrete_solid.h"
+
+#include <span>
+
+namespace mergel::fem {
+
+/// Energy of the solid [J]. For a constant time step the books close to round-off:
+///
+///   change of (kinetic + strain) = interface_work + gravity_work + initial_stress_work -
+///   damping
+///
+/// Each work sum adds dt f^n . (v^{n-1/2} + v^{n+1/2})/2. When dt changes from dt_1 to dt_2
+/// one such step is off by (dt_2 - dt_1)/4 (K u).(v^{n+1/2} - v^{n-1/2}), second order in
+/// dt.
+struct Energies {
+  double kinetic = 0.0; ///< 1/2 m v^2 at n+1/2
+  double strain = 0.0;  ///< 1/2 u^n.K u^{n+1}: at n+1/2, relative to the initial state
+  double interface_work = 0.0; ///< done on the solid by the interface forces, cumulative
+  double gravity_work = 0.0;   ///< done by gravity, cumulative
+  double initial_stress_work = 0.0; ///< done by -f_initial, cumulative
+  double damping = 0.0;             ///< taken out by damping, cumulative
+};
+
+/// All that a restart needs to go on with the same bits.
+struct Motion {
+  Nodal u;           ///< displacement u^{n+1} [m]
+  Nodal v;           ///< velocity v^{n+1/2} [m/s]
+  Nodal Ku;          ///< internal force at the last kick, u^n [N]
+  Nodal f_interface; ///< P times the interface forces of the last kick [N]
+  double dt = 0.0;   ///< last time step [s]; 0 before the first
+  Energies energy;
+};
+
+/// Moves a solid, which it borrows and which must outlive it:
+///
+///   f = f_interface + f_gravity - f_initial - K u            at t^n
+///   m (v^{n+1/2} - v^{n-1/2})/dt = P (f_c - alpha |f_c| sign(v_c))_c    for each component
+///   c u^{n+1} = u^n + dt v^{n+1/2}
+///
+/// The kick uses the mean of the old and the new dt; the first step takes the new one.
+class Leapfrog {
+public:
+  /// @param alpha local damping [-], 0 <= alpha < 1
+  /// @param loaded nodes that take interface forces, in the order in which step() gets them
+  Leapfrog(const DiscreteSolid& solid, double alpha, std::vector<std::uint32_t> loaded);
+
+  /// One step of dt [s] > 0 under forces f [N], one for each loaded node. Allocates
+  /// nothing.
+  void step(double dt, std::span<const Vec3> f);
+
+  /// At rest at u under forces f; the work sums start again from zero.
+  void rest_at(const Nodal& u, std::span<const Vec3> f);
+
+  const Motion& motion() const { return now_; }
+  /// Throws std::invalid_argument when the arrays do not fit the solid.
+  void restore(Motion state);
+
+  /// Energies after the last step.
+  Energies energies() const;
+
+  /// How far from equilibrium, at the last kick:
+  ///   sum_a |f_a| / sum_a (|f_interface| + |f_gravity| + |f_initial| + |K u|)_a
+  /// over all nodes, forces projected with P, so reactions of supports count in neither;
+  /// f_a before damping. 0 when there is no force at all.
+  double unbalanced_ratio() const;
+
+private:
+  void take_interface_forces(std::span<const Vec3> f);
+
+  const DiscreteSolid& solid_;
+  double alpha_;
+  std::vector<std::uint32_t> loaded_;
+  std::vector<double> inverse_m_; // [1/kg]
+  Motion now_;
+};
+
+} // namespace mergel::fem

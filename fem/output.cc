@@ -1,0 +1,65 @@
+#include "fem/output.h"
+
+#include <deal.II/fe/fe_dgq.h>
+#include <deal.II/lac/vector.h>
+#include <deal.II/numerics/data_out.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace mergel::fem {
+
+void write_vtu(const ElasticSolid& solid, const Nodal& u, const Nodal& v,
+               const std::string& path)
+{
+  using dealii::DataComponentInterpretation::component_is_part_of_tensor;
+  using dealii::DataComponentInterpretation::component_is_part_of_vector;
+
+  const auto unknowns = [&](const Nodal& field) {
+    dealii::Vector<double> vector(solid.dofs().n_dofs());
+    for (unsigned int i = 0; i < vector.size(); ++i) vector(i) = field(i % 3, i / 3);
+    return vector;
+  };
+  const dealii::Vector<double> displacement = unknowns(u), velocity = unknowns(v);
+
+  // ParaView takes a tensor as nine components, constant in a cell.
+  const dealii::FESystem<3> constant(dealii::FE_DGQ<3>(0), 9);
+  dealii::DoFHandler<3> stress_dofs(solid.dofs().get_triangulation());
+  stress_dofs.distribute_dofs(constant);
+  dealii::Vector<double> stress(stress_dofs.n_dofs());
+  const auto cell_stress = solid.cell_stress(u);
+  std::vector<dealii::types::global_dof_index> indices(9);
+  for (const auto& cell : stress_dofs.active_cell_iterators()) {
+    cell->get_dof_indices(indices);
+    for (unsigned int c = 0; c < 9; ++c)
+      stress(indices[c]) = cell_stress[cell->active_cell_index()][c / 3][c % 3];
+  }
+
+  const std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>
+      vector(3, component_is_part_of_vector), tensor(9, component_is_part_of_tensor);
+  dealii::DataOut<3> out;
+  out.add_data_vector(solid.dofs(), displacement,
+                      std::vector<std::string>(3, "displacement"), vector);
+  out.add_data_vector(solid.dofs(), velocity, std::vector<std::string>(3, "velocity"),
+                      vector);
+  out.add_data_vector(stress_dofs, stress, std::vector<std::string>(9, "stress"), tensor);
+  out.build_patches();
+
+  std::ostringstream
+      text; // deal.II reports a bad stream with a page of guesses and a stack
+  out.write_vtu(text);
+  const std::string temporary = path + ".part";
+  std::ofstream file(temporary, std::ios::binary);
+  file << text.str();
+  file.close();
+  std::error_code error;
+  if (file) std::filesystem::rename(temporary, path, error);
+  if (!file || error)
+    throw std::runtime_error("far field output " + path + ": cannot be written" +
+                             (error ? " (" + error.message() + ")" : "") +
+                             "; is the folder there, writable, and the disk not full?");
+}
+
+} // namespace mergel::fem

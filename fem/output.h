@@ -1,0 +1,16 @@
+/// Far-field results as VTK files for ParaView.
+#pragma once
+
+#include "fem/elastic_solid.h"
+
+#include <string>
+
+namespace mergel::fem {
+
+/// Write displacement u [m], velocity v [m/s] at the nodes and the cells' mean stress [Pa]
+/// (tensor, tension positive, initial stress included) as one .vtu file. It appears under
+/// its name only when complete. Throws std::runtime_error when it cannot be written.
+void write_vtu(const ElasticSolid& solid, const Nodal& u, const Nodal& v,
+               const std::string& path);
+
+} // namespace mergel::fem

@@ -1,0 +1,11 @@
+// Main of the test programs that link fem/: PETSc and deal.II must be started once.
+#define CATCH_CONFIG_RUNNER
+#include <catch2/catch.hpp>
+
+#include "fem/runtime.h"
+
+int main(int argc, char** argv)
+{
+  const mergel::fem::Runtime runtime(argc, argv);
+  return Catch::Session().run(argc, argv);
+}

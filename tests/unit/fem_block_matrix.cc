@@ -1,0 +1,51 @@
+#include "fem/block_matrix.h"
+
+#include <catch2/catch.hpp>
+
+using namespace mergel::fem;
+
+TEST_CASE("A product of the block matrix is that of the full symmetric matrix",
+          "[unit][fem]")
+{
+  // Couplings 0-1, 0-3, 1-2, 2-3; node 4 stands alone.
+  BlockMatrix A({{1, 3}, {2}, {3}, {}, {}});
+  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(15, 15);
+  std::srand(7);
+  A.for_each([](std::uint32_t, std::uint32_t, const Mat3& B) { CHECK(B.isZero(0.0)); });
+  for (const auto& [i, j] : std::vector<std::pair<int, int>>{{0, 0},
+                                                             {0, 1},
+                                                             {0, 3},
+                                                             {1, 1},
+                                                             {1, 2},
+                                                             {2, 2},
+                                                             {2, 3},
+                                                             {3, 3},
+                                                             {4, 4},
+                                                             {0, 3}}) {
+    Mat3 B = Mat3::Random();
+    if (i == j) B = (B + B.transpose()).eval();
+    A.add(i, j, B);
+    full.block<3, 3>(3 * i, 3 * j) += B;
+    if (i != j) full.block<3, 3>(3 * j, 3 * i) += B.transpose();
+  }
+  CHECK(A.n_rows() == 5);
+  CHECK(A.n_blocks() == 9);
+
+  Nodal x = Nodal::Zero(4, 5), y = Nodal::Constant(4, 5, 99.0);
+  x.topRows<3>().setRandom();
+  A.multiply(x, y);
+  Eigen::VectorXd flat(15);
+  for (int a = 0; a < 5; ++a) flat.segment<3>(3 * a) = at(x, a);
+  const Eigen::VectorXd expected = full * flat;
+  for (int a = 0; a < 5; ++a) {
+    CHECK((at(y, a) - expected.segment<3>(3 * a)).norm() < 1e-14 * expected.norm());
+    CHECK(y(3, a) == 0.0); // padding stays zero
+  }
+}
+
+TEST_CASE("A block outside the pattern is refused", "[unit][fem]")
+{
+  BlockMatrix A({{1}, {}, {}});
+  CHECK_THROWS_WITH(A.add(0, 2, Mat3::Identity()), Catch::Contains("(0, 2)"));
+  CHECK_THROWS_AS(A.add(1, 0, Mat3::Identity()), std::logic_error); // the upper half only
+}

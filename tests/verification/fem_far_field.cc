@@ -1,0 +1,132 @@
+// The far field as the coupling uses it: design.md §§8, 10.
+#include "fem/boundary_ids.h"
+#include "fem/elastic_solid.h"
+#include "fem/far_field.h"
+#include "fem/far_field_mesh.h"
+#include "fem/linear_solver.h"
+
+#include <Eigen/Geometry>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+using namespace mergel::fem;
+
+namespace {
+
+using std::numbers::pi;
+
+FarFieldSpec small_pile()
+{
+  FarFieldSpec s;
+  s.chamber_diameter = 25e-3;
+  s.chamber_height = 40e-3;
+  s.region_diameter = 10e-3;
+  s.region_height = 12e-3;
+  s.cell_size = 2e-3;
+  s.growth = 1.4;
+  s.E = 1.1e9;
+  s.nu = 0.14;
+  s.rho = 1227.0;
+  s.K0 = 0.163;
+  return s;
+}
+
+/// Area of half a regular polygon of 2 n sides in a circle: what a cylinder of n segments
+/// covers.
+double half_polygon(double R, double n)
+{
+  return n * R * R / 2.0 * std::sin(pi / n);
+}
+
+} // namespace
+
+TEST_CASE("The far field's initial stress is in equilibrium with the region's traction",
+          "[verification][fem]")
+{
+  FarField field(small_pile());
+  const auto f = field.initial_interface_forces();
+
+  // The region's weight rests on its floor.
+  const double n_around = 8.0; // pi 5 mm / 2 mm = 7.9
+  const double g = 9.81, weight = 1227.0 * g * 12e-3 * half_polygon(5e-3, n_around);
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& force : f) sum += force;
+  CHECK(sum.z() == Approx(-weight).epsilon(1e-10));
+  CHECK(std::abs(sum.x()) < 1e-12 * weight); // mirror symmetric
+
+  // Nothing moves: the stress is linear in depth, which two Gauss points integrate exactly.
+  field.solve_static(f);
+  CHECK(field.unbalanced_ratio() < 1e-13);
+  const double scale = 1227.0 * g * 40e-3 / 1.1e9 * 40e-3; // settlement of such a column
+  CHECK(field.motion().u.abs().maxCoeff() < 1e-10 * scale);
+
+  const double volume =
+      half_polygon(12.5e-3, n_around) * 40e-3 - half_polygon(5e-3, n_around) * 12e-3;
+  CHECK(field.mass() == Approx(1227.0 * volume).epsilon(1e-10));
+}
+
+TEST_CASE(
+    "Pressure on the interface: damped steps end at the static solution, books closed",
+    "[verification][fem]")
+{
+  FarFieldSpec spec = small_pile();
+  spec.chamber_height = 30e-3;
+  FarField field(spec);
+  const InterfaceMesh& mesh = field.interface();
+  std::vector<Vec3> f = field.initial_interface_forces();
+  for (const auto& t : mesh.triangles) {
+    const Vec3 area =
+        0.5 * (mesh.x[t[1]] - mesh.x[t[0]]).cross(mesh.x[t[2]] - mesh.x[t[0]]);
+    for (const int a : t)
+      f[static_cast<std::size_t>(a)] -= 1e6 / 3.0 * area; // out of the region
+  }
+  field.solve_static(f);
+  const Nodal exact = field.motion().u;
+  std::vector<Vec3> u;
+  field.interface_displacement(u);
+  double outwards = 0.0;
+  for (std::size_t a = 0; a < u.size(); ++a) outwards += u[a].dot(mesh.x[a]);
+  CHECK(outwards > 0.0);
+
+  FarField moving(spec);
+  const double dt = 0.7 * moving.stable_time_step() / std::sqrt(1.7);
+  int steps = 0;
+  for (; steps < 20000 && !(steps > 0 && moving.unbalanced_ratio() < 1e-10); ++steps)
+    moving.step(dt, f);
+  CHECK(steps < 20000);
+  CHECK((moving.motion().u - exact).abs().maxCoeff() < 1e-6 * exact.abs().maxCoeff());
+
+  const Energies e = moving.energies();
+  const double books = e.kinetic + e.strain - e.interface_work - e.gravity_work -
+                       e.initial_stress_work + e.damping;
+  CHECK(std::abs(books) < 1e-11 * e.interface_work);
+  CHECK(e.damping > 0.0);
+}
+
+TEST_CASE("The multigrid solution is the direct one", "[verification][fem]")
+{
+  const FarFieldGeometry g{12.5e-3, 40e-3, 5e-3, 12e-3, 2e-3, 1.4};
+  dealii::Triangulation<3> mesh;
+  make_far_field_mesh(g, layers(g), mesh);
+  const ElasticSolid solid(mesh, {{1.1e9, 0.14}, 1227.0, Vec3(0.0, 0.0, -9.81), {}},
+                           {{boundary::bottom, Support::fixed},
+                            {boundary::symmetry, Support::roller},
+                            {boundary::outer, Support::roller}});
+  const auto& s = solid.discrete();
+  const auto iterated = solve_static(s, s.f_gravity);
+  const auto direct = solve_static(s, s.f_gravity, StaticMethod::direct);
+  // Both leave residuals of 1e-12 or less, measured difference 4e-14.
+  CHECK((iterated.u - direct.u).abs().maxCoeff() < 1e-10 * direct.u.abs().maxCoeff());
+  CHECK(iterated.iterations < 60);
+  CHECK(iterated.residual < 2e-12);
+
+  // The base, not held: no static solution, and the solver says so.
+  const ElasticSolid loose(mesh, {{1.1e9, 0.14}, 1227.0, Vec3(0.0, 0.0, -9.81), {}}, {});
+  CHECK_THROWS_AS(solve_static(loose.discrete(), loose.discrete().f_gravity),
+                  std::runtime_error);
+}
