@@ -1,0 +1,35 @@
+#include "coupling/ledger.h"
+
+#include <cmath>
+
+namespace mergel::coupling {
+
+InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
+                                   const Nodal& x_fem)
+{
+  const Nodal& f_fem = exchange.forces_up(wall);
+  const Nodal& v_fem = exchange.far_field_velocities();
+
+  dem::Vec3 force = dem::Vec3::Zero(), moment = force;
+  double power = 0.0, sum_f = 0.0, sum_m = 0.0, sum_p = 0.0;
+  for (std::size_t k = 0; k < wall.f.size(); ++k) {
+    const dem::Vec3 f = wall.f[k].value();
+    force -= f;
+    moment -= wall.x[k].cross(f);
+    sum_f += f.norm();
+    sum_m += wall.x[k].norm() * f.norm();
+    sum_p += wall.v[k].norm() * f.norm();
+  }
+  for (std::size_t k = 0; k < f_fem.size(); ++k) {
+    force += f_fem[k];
+    moment += x_fem[k].cross(f_fem[k]);
+    if (!v_fem.empty()) power += f_fem[k].dot(v_fem[k]);
+  }
+  const auto share = [](double part, double whole) {
+    return whole > 0.0 ? part / whole : 0.0;
+  };
+  return {share(force.norm(), sum_f), share(moment.norm(), sum_m),
+          share(std::abs(power - wall.contact_power), sum_p)};
+}
+
+} // namespace mergel::coupling
