@@ -1,0 +1,169 @@
+/// The case file of a run: sections of keys, each bound once to the variable it sets.
+///
+///     CaseFile file;
+///     {
+///       const auto section = file.section("Bond");
+///       file.quantity("effective modulus", b.E, "Pa", positive, "Modulus, Eq. 4.");
+///     }
+///     file.read("pile.prm", {"Bond/effective modulus=0.63 GPa"});
+///
+/// The format is deal.II's ParameterHandler's (`subsection Bond`, `set key = value`, `end`,
+/// `#` for comments, `\` to go on in the next line), one file, sections not nested.
+#pragma once
+
+#include "apps/range.h"
+
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mergel::apps {
+
+/// Whether a key may be left out of the case. Quantities and numbers say it by their
+/// default: NaN is none.
+enum class Default {
+  present, ///< the variable's value at declaration stands
+  none     ///< the user must give the key
+};
+
+/// Declare all keys, then read() once or more. The bound variables must outlive the object.
+/// Every InputError is one line: place, section/key = value, what is wrong, what is
+/// expected. Misuse by the program (a key declared twice, a default out of its own range)
+/// throws std::logic_error.
+class CaseFile {
+public:
+  CaseFile();
+  ~CaseFile();
+  CaseFile(const CaseFile&) = delete;
+  CaseFile& operator=(const CaseFile&) = delete;
+
+  /// While it lives, keys are declared in this section.
+  class [[nodiscard]] Section {
+  public:
+    ~Section();
+    Section(const Section&) = delete;
+    Section& operator=(const Section&) = delete;
+
+  private:
+    friend CaseFile;
+    explicit Section(CaseFile& file) : file_(file) {}
+    CaseFile& file_;
+  };
+
+  /// Open a section, new or declared before; one at a time.
+  Section section(const std::string& name);
+
+  /// A number with a unit. `target` is in `si_unit`, a coherent SI unit ("Pa", "m", "rad"),
+  /// and so are the bounds of `range`; help and resolved case use `shown_unit` ("mm").
+  void quantity(const std::string& key, double& target, const std::string& si_unit,
+                const Range& range, const std::string& sentence,
+                const std::string& shown_unit = "");
+
+  /// A number without a unit.
+  void number(const std::string& key, double& target, const Range& range,
+              const std::string& sentence);
+
+  /// A whole number; the range of T (up to 2^63-1) is allowed besides `range`.
+  template <std::integral T>
+  void integer(const std::string& key, T& target, const Range& range,
+               const std::string& sentence, Default standard = Default::present)
+  {
+    constexpr auto largest =
+        static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    constexpr auto largest_T = static_cast<std::uint64_t>(std::numeric_limits<T>::max());
+    add_integer(
+        key, static_cast<std::int64_t>(target),
+        {static_cast<std::int64_t>(std::numeric_limits<T>::min()),
+         static_cast<std::int64_t>(largest_T < largest ? largest_T : largest)},
+        [&target](std::int64_t value) { target = static_cast<T>(value); }, range, sentence,
+        standard);
+  }
+
+  /// One of several names, each standing for a value of T.
+  template <class T>
+  void choice(const std::string& key, T& target,
+              const std::vector<std::pair<std::string, T>>& options,
+              const std::string& sentence, Default standard = Default::present)
+  {
+    std::vector<std::string> names;
+    std::vector<T> values;
+    std::size_t present = options.size();
+    for (const auto& [name, value] : options) {
+      if (present == options.size() && value == target) present = names.size();
+      names.push_back(name);
+      values.push_back(value);
+    }
+    add_choice(
+        key, names, present,
+        [&target, values](std::size_t which) { target = values[which]; }, sentence,
+        standard);
+  }
+
+  /// One of several names.
+  void choice(const std::string& key, std::string& target,
+              const std::vector<std::string>& options, const std::string& sentence,
+              Default standard = Default::present);
+
+  /// true or false; yes and no are taken too.
+  void flag(const std::string& key, bool& target, const std::string& sentence);
+
+  /// One line of text without '#' or a last '\'; may be empty unless it must be given.
+  void text(const std::string& key, std::string& target, const std::string& sentence,
+            Default standard = Default::present);
+
+  /// A file or folder; may be empty unless it must be given. A relative path in the case
+  /// file starts at the case file's folder, one from --set or a default at the working
+  /// directory; the target is absolute. Whether it exists is the caller's to check.
+  void path(const std::string& key, std::filesystem::path& target,
+            const std::string& sentence, Default standard = Default::present);
+
+  /// Read the file, then the overrides ("Section/key=value", from --set), and set every
+  /// bound variable. Nothing is written anywhere.
+  /// @throws InputError at the first thing wrong; bound variables are then unspecified
+  void read(const std::filesystem::path& path,
+            const std::vector<std::string>& overrides = {});
+
+  /// Where the value of a key comes from, for checks that span several keys:
+  /// "pile.prm:14: Pile/diameter", "--set Pile/diameter", or, when the default stands,
+  /// "pile.prm: Pile/diameter". @pre read() was called
+  std::string where(const std::string& section, const std::string& key) const;
+
+  /// Refuse the value of a key: throws InputError "<where> = <value as given>: <message>".
+  /// @pre read() was called
+  [[noreturn]] void refuse(const std::string& section, const std::string& key,
+                           const std::string& message) const;
+
+  /// Whether the user gave this key (file or --set). @pre read() was called
+  bool is_given(const std::string& section, const std::string& key) const;
+
+  /// Write the complete case as it was read, defaults included: a case file that sets every
+  /// variable to the same bits. The same case gives the same text. Replaces the file whole.
+  /// @pre read() was called; @throws NumericalError if it cannot be written
+  void write_resolved(const std::filesystem::path& path) const;
+
+  /// Every key by section: name, unit, default, what is allowed, one sentence. 92 columns.
+  void help(std::ostream& out) const;
+
+private:
+  struct Limits {
+    std::int64_t lower, upper;
+  };
+  void add_integer(const std::string& key, std::int64_t present, Limits limits,
+                   std::function<void(std::int64_t)> set, const Range& range,
+                   const std::string& sentence, Default standard);
+  void add_choice(const std::string& key, const std::vector<std::string>& names,
+                  std::size_t present, std::function<void(std::size_t)> set,
+                  const std::string& sentence, Default standard);
+
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace mergel::apps

@@ -1,0 +1,40 @@
+/// The text of a case file, and where each key stands in it: the line numbers that
+/// ParameterHandler forgets.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mergel::apps {
+
+/// One `set key = value`.
+struct CaseEntry {
+  std::string section, key, value;
+  int line = 0; ///< from 1; of the first line if it is continued
+};
+
+struct CaseScan {
+  std::vector<CaseEntry> entries;      ///< in the order of the file, no key twice
+  std::map<std::string, int> sections; ///< each section's first line
+};
+
+/// The text of a case file, with plain newlines and without a byte order mark.
+/// @throws InputError when it is missing, a folder, not readable, or no text
+std::string read_case_text(const std::filesystem::path& path);
+
+/// Scan the text of a case file by the rules of ParameterHandler.
+///
+/// @param name of the file, for messages
+/// @throws InputError "name:line: ..." for a line that is none of subsection, set and end,
+///         a section left open, opened in another or closed twice, and a key outside
+///         sections or given twice
+CaseScan scan_case(std::string_view text, const std::string& name);
+
+/// One --set argument, "Section/key=value", taken apart; line 0.
+/// @throws InputError when it has another form
+CaseEntry scan_override(const std::string& argument);
+
+} // namespace mergel::apps

@@ -1,0 +1,172 @@
+#include "apps/coupled_rock.h"
+
+#include "apps/progress.h"
+#include "dem/io/history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace mergel::apps {
+
+namespace {
+
+/// Springs of the rock on the far-field nodes [N/m].
+std::vector<double> interface_springs(const dem::Rock& rock,
+                                      const coupling::Transfer& transfer)
+{
+  const dem::Wall& wall = rock.walls.front();
+  coupling::Nodal k_dem(wall.x.size(), dem::Vec3::Zero()), k_fem;
+  for (const dem::WallBond& b : wall.bonds) {
+    if (b.state.intact == 0.0) continue;
+    const double R = rock.particles.body[b.particle].R;
+    const double k = dem::bond_shape(rock.material.bond, R, 1.0 / R).k_n +
+                     dem::linear_stiffness(wall.material, R, 1.0 / R).k_n;
+    const dem::Triangle& t =
+        wall.topology.triangles[static_cast<std::size_t>(b.anchor.triangle)];
+    for (int c = 0; c < 3; ++c)
+      k_dem[static_cast<std::size_t>(t[static_cast<std::size_t>(c)])].x() +=
+          b.anchor.weight[c] * k;
+  }
+  transfer.to_fem(k_dem, k_fem);
+  std::vector<double> k(k_fem.size());
+  for (std::size_t n = 0; n < k.size(); ++n) k[n] = k_fem[n].x();
+  return k;
+}
+
+} // namespace
+
+fem::FarField make_far_field(RockCase& c)
+{
+  fem::FarField far_field(c.far_field);
+  // The corners of the prism are the interface nodes of the surface.
+  int corners = 0;
+  for (const Eigen::Vector3d& x : far_field.interface().x)
+    if (std::abs(x.z()) < 1e-9 * c.height) ++corners;
+  c.specimen.region.segments = corners - 1;
+  return far_field;
+}
+
+CoupledRock::CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarField field,
+                         coupling::Interface interface)
+    : far_field(std::move(field)), exchange(std::move(interface.transfer), far_field),
+      x_interface(far_field.interface().x), model(c.model), safety(c.safety)
+{
+  rock.particles = sample.packing.particles;
+  rock.material = c.material;
+  rock.motion = {dem::Vec3(0.0, 0.0, -c.gravity), c.damping, c.free_rotation};
+  // A skin of 0.3 d00 S: some hundred steps between rebuilds under a pile at 1 m/s.
+  rock.list = dem::VerletList(c.material.contact.g_a, 0.3 * c.specimen.d_min);
+  rock.bonds = dem::make_bonds(rock.particles, rock.cell, sample.bonding.pairs);
+  rock.mirrors.emplace_back();
+  if (c.symmetry == dem::Symmetry::mirror)
+    dem::bond_to_mirror(rock.mirrors.front(), rock.particles, sample.bonding.limit);
+  rock.walls.push_back(std::move(interface.wall));
+  if (c.interface_bond != dem::InterfaceBond::frictional)
+    dem::bond_to_wall(rock.walls.front(), rock.particles, sample.bonding.limit);
+  rock.wall_bonds_yield = c.interface_bond == dem::InterfaceBond::breakable;
+
+  dem::add_forces(rock, 0.0); // nothing has moved yet: histories stay
+  dt = dt_before = dem::stable_time_step(rock, safety);
+  lower_time_step();
+  for (const dem::Body& b : rock.particles.body) x_0.push_back(b.x);
+}
+
+void CoupledRock::lower_time_step()
+{
+  dt = std::min(dt, dem::stable_time_step(rock, safety));
+  if (model == FarFieldModel::elastic && n_steps == 0) {
+    const double far =
+        far_field.stable_time_step(interface_springs(rock, exchange.transfer()));
+    dt = std::min(dt, safety * far / std::sqrt(1.0 + rock.motion.damping));
+  }
+}
+
+double CoupledRock::unbalanced() const
+{
+  const double grains = dem::unbalanced_ratio(rock);
+  return model == FarFieldModel::elastic ? std::max(grains, far_field.unbalanced_ratio())
+                                         : grains;
+}
+
+coupling::InterfaceBalance CoupledRock::balance()
+{
+  coupling::Nodal x = x_interface, u;
+  if (model == FarFieldModel::elastic) {
+    far_field.interface_displacement(u);
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
+  }
+  return coupling::interface_balance(exchange, rock.walls.front(), x);
+}
+
+CoupledRock::Books CoupledRock::books() const
+{
+  return {dem::energy_book(rock, dt), far_field.energies()};
+}
+
+double CoupledRock::unexplained(const Books& now, const Books& start)
+{
+  const auto net = [](const fem::Energies& e) {
+    return e.kinetic + e.strain - e.interface_work - e.gravity_work -
+           e.initial_stress_work + e.damping;
+  };
+  return dem::unexplained(now.rock, start.rock) + net(now.far_field) - net(start.far_field);
+}
+
+namespace {
+
+/// Relax with the walls as `model` says until `reached()` holds.
+void relax(CoupledRock& coupled, const char* stage, double ratio, std::size_t most_steps)
+{
+  Progress progress(stage);
+  const auto shown = [](double r) {
+    char text[48];
+    std::snprintf(text, sizeof text, "unbalanced ratio %.1e", r);
+    return std::string(text);
+  };
+  double now = coupled.unbalanced(), first = now;
+  for (std::size_t n = 1; n <= most_steps; ++n) {
+    coupled.step([](double) {});
+    if (n % 50 != 0) continue;
+    now = coupled.unbalanced();
+    first = std::max(first, now);
+    if (coupled.rock.losses.broken > 0)
+      throw NumericalError(
+          "a bond broke before anything was driven (" + shown(now) +
+          "): the specimen is too weak for its own weight, or was made under pressure");
+    if (now < ratio) {
+      progress.done(shown(now) + ", " + std::to_string(n) + " steps");
+      return;
+    }
+    const double part = std::log(first / now) / std::log(first / ratio);
+    progress.update(std::clamp(part, 0.0, 1.0), [&] { return shown(now); });
+  }
+  throw NumericalError(std::string(stage) + ": no equilibrium in " +
+                       std::to_string(most_steps) + " steps: " + shown(now) + ", wanted " +
+                       dem::shortest(ratio) +
+                       "; raise `Motion/damping` or `Motion/balance`");
+}
+
+} // namespace
+
+void equilibrate(CoupledRock& coupled, double ratio, std::size_t most_steps)
+{
+  const FarFieldModel model = coupled.model;
+  coupled.model = FarFieldModel::rigid;
+  relax(coupled, "settling in held walls", ratio, most_steps);
+  coupled.model = model;
+
+  if (model == FarFieldModel::elastic) {
+    dem::Wall& wall = coupled.rock.walls.front();
+    const coupling::Nodal x = wall.x;
+    const coupling::Nodal u = coupled.exchange.settle(wall);
+    for (dem::Body& b : coupled.rock.particles.body)
+      b.x += coupling::interpolate_inside(x, u, b.x);
+    dem::add_forces(coupled.rock, 0.0);
+    relax(coupled, "settling with the far field", ratio, most_steps);
+  }
+  coupled.x_0.clear();
+  for (const dem::Body& b : coupled.rock.particles.body) coupled.x_0.push_back(b.x);
+}
+
+} // namespace mergel::apps

@@ -1,0 +1,71 @@
+/// A rock in its far field, from specimen to equilibrium: what a job then drives.
+#pragma once
+
+#include "apps/rock_case.h"
+#include "coupling/exchange.h"
+#include "coupling/ledger.h"
+#include "dem/balance.h"
+
+namespace mergel::apps {
+
+/// The rock, the far field and what ties them. Kept in one place because the parts refer to
+/// each other.
+struct CoupledRock {
+  dem::Rock rock;
+  fem::FarField far_field;
+  coupling::Exchange exchange;
+  coupling::Nodal x_interface; ///< reference positions of the far-field interface nodes [m]
+  FarFieldModel model;
+  double dt = 0.0;        ///< present step [s]; only ever lowered
+  double dt_before = 0.0; ///< the step before [s]
+  double safety = 0.7;
+  std::size_t n_steps = 0;
+  std::vector<dem::Vec3> x_0; ///< grains in equilibrium, before anything is driven [m]
+
+  CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarField far_field,
+              coupling::Interface interface);
+  CoupledRock(const CoupledRock&) = delete;
+  CoupledRock& operator=(const CoupledRock&) = delete;
+
+  /// One step of rock and far field; `move_pile(dt)` moves what else is driven.
+  template <class MovePile>
+  void step(MovePile&& move_pile)
+  {
+    if (n_steps % steps_between_checks == 0) lower_time_step();
+    dem::advance(rock, dt_before, dt, [&](double h) {
+      if (model == FarFieldModel::elastic) exchange.step(rock.walls.front(), h);
+      move_pile(h);
+    });
+    dt_before = dt;
+    ++n_steps;
+  }
+
+  /// Re-evaluate the critical step of grains and far field; lower dt if it fell.
+  void lower_time_step();
+
+  /// Larger of the unbalanced-force ratios of grains and far field.
+  double unbalanced() const;
+
+  coupling::InterfaceBalance balance();
+
+  /// Energy that neither book explains since `start` [J], the far field's included.
+  struct Books {
+    dem::EnergyBook rock;
+    fem::Energies far_field;
+  };
+  Books books() const;
+  static double unexplained(const Books& now, const Books& start);
+
+  static constexpr std::size_t steps_between_checks = 100;
+};
+
+/// The far field of a case and the number of faces around its side, which the specimen must
+/// fit.
+fem::FarField make_far_field(RockCase& c);
+
+/// Bring it to equilibrium (design section 8): walls held, rock relaxed; static solve of
+/// the far field under the rock's forces, rock moved with it; both relaxed.
+/// @throws NumericalError when a bond breaks or equilibrium is not reached in `most_steps`
+void equilibrate(CoupledRock& coupled, double ratio, std::size_t most_steps);
+
+} // namespace mergel::apps

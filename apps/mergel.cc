@@ -1,0 +1,130 @@
+/// The program: reads the command line, starts MPI, runs one job.
+
+#include "apps/jobs.h"
+#include "apps/run_guard.h"
+#include "apps/words.h"
+#include "dem/error.h"
+#include "fem/runtime.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace mergel;
+using namespace mergel::apps;
+
+void print_help(std::ostream& out)
+{
+  out << "mergel: coupled DEM-FEM solver for weak, porous, bonded rock.\n\n"
+         "usage: mergel <job> CASE.prm [--set \"Section/key=value\"]... [--output DIR] "
+         "[--overwrite]\n\njobs:\n";
+  for (const Job& job : jobs) {
+    std::string name = job.name;
+    name.resize(std::max<std::size_t>(name.size(), 8), ' ');
+    out << "  " << name << "  " << job.sentence << "\n";
+  }
+  out << "\nexample:\n"
+         "  mergel pile apps/cases/pile_small.prm --set \"Pile/friction=0.3\" --output "
+         "results/rough\n\n"
+         "mergel <job> --help prints every key of its case; mergel --version the "
+         "version.\n";
+}
+
+void print_job_help(const Job& job, std::ostream& out)
+{
+  out << "mergel " << job.name << ": " << job.sentence << "\n\nusage: mergel " << job.name
+      << " CASE.prm [options]\n"
+         "  --set \"Section/key=value\"  set a key over the case file; may be repeated\n"
+         "  --output DIR               results folder; default results/<name of the case>\n"
+         "  --overwrite                replace an earlier run in that folder\n\n"
+         "Keys of CASE.prm, by section. Values carry their unit; any unit of the same "
+         "dimension\nwill do.\n\n";
+  job.help(out);
+}
+
+const Job& find_job(const std::string& name)
+{
+  std::vector<std::string> names;
+  for (const Job& job : jobs) {
+    if (name == job.name) return job;
+    names.push_back(job.name);
+  }
+  const std::string meant = nearest(name, names);
+  throw InputError("mergel: unknown job \"" + name + "\". " +
+                   (meant.empty() ? "Jobs are " + joined(names, ", ") + "."
+                                  : "Did you mean \"" + meant + "\"?"));
+}
+
+/// @throws InputError, or CLI::CallForHelp
+JobOptions parse_job(const Job& job, std::vector<std::string> arguments)
+{
+  JobOptions options;
+  CLI::App app;
+  app.add_option("CASE.prm", options.case_file);
+  app.add_option("--set", options.set)->expected(1)->take_all();
+  app.add_option("--output", options.output);
+  app.add_flag("--overwrite", options.overwrite);
+  const std::string see = ". See mergel " + std::string(job.name) + " --help.";
+  try {
+    std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
+    app.parse(std::move(arguments));
+  } catch (const CLI::CallForHelp&) {
+    throw;
+  } catch (const CLI::ParseError& error) {
+    throw InputError("mergel " + std::string(job.name) + ": " + in_one_line(error.what()) +
+                     see);
+  }
+  require(!options.case_file.empty(),
+          "mergel " + std::string(job.name) + ": no case file is given" + see);
+  if (options.output.empty())
+    options.output = std::filesystem::path("results") / options.case_file.stem();
+  return options;
+}
+
+int run(int argc, char** argv)
+{
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const std::string first = arguments.empty() ? "" : arguments.front();
+  if (first == "--help" || first == "-h") {
+    print_help(std::cout);
+    return exit_done;
+  }
+  if (first == "--version") {
+    std::cout << "mergel " MERGEL_VERSION "\n";
+    return exit_done;
+  }
+  if (first.empty()) throw InputError("mergel: no job is given. See mergel --help.");
+  if (first.starts_with('-'))
+    throw InputError("mergel: \"" + first + "\" stands before the job. See mergel --help.");
+
+  const Job& job = find_job(first);
+  JobOptions options;
+  try {
+    options = parse_job(job, {arguments.begin() + 1, arguments.end()});
+  } catch (const CLI::CallForHelp&) {
+    print_job_help(job, std::cout);
+    return exit_done;
+  }
+
+  fem::Runtime runtime(argc, argv);
+  return run_guarded([&] {
+    int n_ranks = 1;
+    MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
+    require(n_ranks == 1, "mergel runs on one rank in this version; started on " +
+                              std::to_string(n_ranks) +
+                              ". Start it without mpirun, or with mpirun -n 1.");
+    return job.run(options);
+  });
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  return run_guarded([&] { return run(argc, argv); });
+}

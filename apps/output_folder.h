@@ -1,0 +1,46 @@
+/// The results folder of a run: looked at first, changed once the input is known to be
+/// good.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace mergel::apps {
+
+/// Whether a folder that holds an earlier run may be used again.
+enum class Earlier {
+  keep,     ///< refuse such a folder
+  overwrite ///< remove what mergel wrote there, and nothing else
+};
+
+/// A folder for the results of one run.
+///
+/// mergel's own files in it, and the marks of an earlier run: history.csv, resolved.prm,
+/// summary.json, sample.h5, mergel.log, every *.pvd, the folder fields/, and mergel-view's
+/// damage.png and load.png; also their temporary files (dem/io/atomic_file.h).
+class OutputFolder {
+public:
+  OutputFolder(std::filesystem::path folder, Earlier earlier);
+
+  const std::filesystem::path& path() const { return folder_; }
+
+  /// Refuse a folder that cannot be used; changes nothing on the disk.
+  ///
+  /// @param inputs files that the run reads later: they must not be among those that
+  ///               commit() removes
+  /// @throws InputError when something is in its way, it cannot be created or written, it
+  ///         holds an earlier run that is to be kept, or an input would be removed
+  void check(const std::vector<std::filesystem::path>& inputs = {}) const;
+
+  /// check() again, create the folder, and remove what an earlier run left.
+  /// @throws InputError as above, or with the system's reason
+  void commit(const std::vector<std::filesystem::path>& inputs = {}) const;
+
+private:
+  std::vector<std::filesystem::path> left_by_earlier_run() const;
+
+  std::filesystem::path folder_;
+  Earlier earlier_;
+};
+
+} // namespace mergel::apps

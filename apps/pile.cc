@@ -1,0 +1,334 @@
+/// mergel pile: install a cone-ended pile by jacking into bonded rock.
+#include "apps/coupled_rock.h"
+#include "apps/jobs.h"
+#include "apps/output_folder.h"
+#include "apps/pile_output.h"
+#include "apps/progress.h"
+#include "dem/io/atomic_file.h"
+
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+namespace mergel::apps {
+
+namespace {
+
+/// Where bonds between grains broke, seen from the pile as it stood then.
+class Breakage {
+public:
+  std::size_t all = 0;
+  std::size_t near = 0;  ///< within 2 D_p of the axis
+  std::size_t above = 0; ///< more than D_p above the shoulder and outside the shaft
+
+  explicit Breakage(const dem::Rock& rock) : is_counted_(rock.bonds.size(), false) {}
+
+  /// Count the bonds that broke since the last call.
+  void update(const dem::Rock& rock)
+  {
+    const dem::Pile& pile = rock.piles.front().pile;
+    const double D = 2.0 * pile.R;
+    for (std::size_t k = 0; k < rock.bonds.size(); ++k) {
+      if (is_counted_[k] || rock.bonds.intact(k) > 0.0) continue;
+      is_counted_[k] = true;
+      const dem::Pair& q = rock.bonds.pairs[k];
+      const dem::Vec3 x = 0.5 * (rock.particles.body[q.i].x + rock.particles.body[q.j].x);
+      const double r = std::hypot(x.x() - pile.x_axis, x.y() - pile.y_axis);
+      ++all;
+      near += r <= 2.0 * D;
+      above += x.z() > pile.z_shoulder() + D && r > pile.R;
+    }
+  }
+
+private:
+  std::vector<bool> is_counted_;
+};
+
+/// Velocity that starts and ends with a ramp of constant acceleration over 0.05 D.
+class Jack {
+public:
+  explicit Jack(const PileCase& c)
+      : v_(c.velocity), ramp_(0.05 * c.diameter), travel_(c.travel())
+  {
+  }
+  double velocity(double travelled) const
+  {
+    // v^2 = 2 a s; a floor of 1 % lets the first step begin and the last one end.
+    const double s = std::min(travelled, travel_ - travelled);
+    return v_ * std::clamp(std::sqrt(std::max(0.0, s) / ramp_), 0.01, 1.0);
+  }
+  double travel() const { return travel_; }
+
+private:
+  double v_, ramp_, travel_;
+};
+
+/// Mean pile forces between two records.
+struct MeanForce {
+  double cone = 0.0, shaft = 0.0;
+  std::size_t n = 0;
+
+  void add(const dem::PileLoad& load)
+  {
+    cone += load.cone.z.value();
+    shaft += load.shaft.z.value();
+    ++n;
+  }
+};
+
+/// Drives the pile down and keeps the books.
+class Installation {
+public:
+  Installation(const PileCase& c, CoupledRock& coupled, PileOutput& output)
+      : case_(c), coupled_(coupled), output_(output), jack_(c), start_(coupled.books()),
+        breakage_(coupled.rock)
+  {
+    dem::PileWall pile;
+    pile.pile.R = 0.5 * c.diameter;
+    pile.pile.cone_height = c.cone_height();
+    pile.material = c.contact;
+    coupled.rock.piles.push_back(pile);
+    coupled.rock.list.invalidate();
+    dem::add_forces(coupled.rock, 0.0);
+    broken_before_ = coupled.rock.losses.broken;
+  }
+
+  void run()
+  {
+    dem::Pile& pile = coupled_.rock.piles.front().pile;
+    Progress progress("driving");
+    output_.frame(0.0, coupled_);
+    int frame = 1;
+    double next_record = case_.record_every;
+    while (travelled() < jack_.travel()) {
+      coupled_.step([&](double dt) {
+        pile.v_z = -jack_.velocity(travelled());
+        pile.z_tip += dt * pile.v_z;
+      });
+      time_ += coupled_.dt_before;
+      force_.add(coupled_.rock.piles.front().load);
+      if (coupled_.n_steps % CoupledRock::steps_between_checks == 0)
+        dem::check_overlaps(coupled_.rock);
+
+      const bool is_over = travelled() >= jack_.travel();
+      if (travelled() >= next_record || is_over) {
+        record();
+        next_record += case_.record_every;
+      }
+      if (travelled() >= jack_.travel() * frame / case_.frames || is_over) {
+        output_.frame(time_, coupled_);
+        ++frame;
+      }
+      if (coupled_.n_steps % 20 == 0)
+        progress.update(travelled() / jack_.travel(), [&] { return now(); });
+    }
+    progress.done(now());
+  }
+
+  const PileRecord& last() const { return last_; }
+  double peak() const { return q_peak_; }
+  double worst_energy_error() const { return worst_energy_error_; }
+  const coupling::InterfaceBalance& worst_interface() const { return worst_interface_; }
+  const Breakage& breakage() const { return breakage_; }
+
+private:
+  double travelled() const { return -coupled_.rock.piles.front().pile.z_tip; }
+
+  std::string now() const
+  {
+    std::ostringstream out;
+    out.precision(3);
+    out << "depth " << 1e3 * last_.depth << " mm (" << last_.depth / case_.diameter
+        << " D_p)  q_c " << 1e-6 * last_.q_c << " MPa  broken " << last_.broken;
+    return out.str();
+  }
+
+  void record()
+  {
+    const double half_to_full = 2.0;
+    const double area = 0.25 * dem::pi * case_.diameter * case_.diameter;
+    const CoupledRock::Books books = coupled_.books();
+    PileRecord r;
+    r.time = time_;
+    r.tip_depth = travelled();
+    r.depth = r.tip_depth - case_.cone_height();
+    r.F_tip = half_to_full * force_.cone / static_cast<double>(force_.n);
+    r.F_shaft = half_to_full * force_.shaft / static_cast<double>(force_.n);
+    r.q_c = r.F_tip / area;
+    breakage_.update(coupled_.rock);
+    r.broken = coupled_.rock.losses.broken - broken_before_;
+    r.unbalanced = coupled_.unbalanced();
+    r.kinetic = books.rock.kinetic;
+    r.interface = coupled_.balance();
+    r.book = books.rock;
+
+    // What was stored at the start counts as put in: the tip meets the first grain after
+    // some travel.
+    const double input = start_.rock.stored() + std::abs(books.rock.pile_work) +
+                         std::abs(books.rock.gravity - start_.rock.gravity);
+    const double error = CoupledRock::unexplained(books, start_);
+    r.energy_error = input > 0.0 ? error / input : 0.0;
+    force_ = {};
+    last_ = r;
+    q_peak_ = std::max(q_peak_, r.q_c);
+    output_.record(r);
+
+    worst_energy_error_ = std::max(worst_energy_error_, std::abs(r.energy_error));
+    worst_interface_.force = std::max(worst_interface_.force, r.interface.force);
+    worst_interface_.moment = std::max(worst_interface_.moment, r.interface.moment);
+    worst_interface_.power = std::max(worst_interface_.power, r.interface.power);
+    if (std::abs(r.energy_error) > 0.01)
+      throw NumericalError("the energy book leaves " + dem::shortest(r.energy_error) +
+                           " of the input unexplained (at most 0.01) at step " +
+                           std::to_string(coupled_.n_steps) + ", t = " +
+                           dem::shortest(time_) + " s: lower `Motion/time step safety`");
+  }
+
+  const PileCase& case_;
+  CoupledRock& coupled_;
+  PileOutput& output_;
+  Jack jack_;
+  CoupledRock::Books start_;
+  Breakage breakage_;
+  MeanForce force_;
+  PileRecord last_;
+  double time_ = 0.0, q_peak_ = 0.0, worst_energy_error_ = 0.0;
+  coupling::InterfaceBalance worst_interface_;
+  std::size_t broken_before_ = 0;
+};
+
+struct Share {
+  const char* name;
+  double seconds;
+};
+
+/// Time of a step by its parts, as shares of the whole.
+std::string shares(const CoupledRock& coupled, double seconds)
+{
+  const dem::StepTimes& t = coupled.rock.times;
+  const double far = coupled.exchange.far_field_seconds,
+               ex = coupled.exchange.exchange_seconds;
+  const double whole = t.total() + far + ex;
+  std::ostringstream out;
+  out.precision(3);
+  out << "time of a step: " << 1e6 * whole / static_cast<double>(coupled.n_steps)
+      << " us in " << coupled.n_steps << " steps, "
+      << 1e9 * whole / static_cast<double>(coupled.n_steps * coupled.rock.particles.n_owned)
+      << " ns a grain;";
+  for (const Share& s : {Share{"bonds", t.bonds},
+                         {"contacts", t.contacts},
+                         {"walls", t.walls},
+                         {"motion", t.motion},
+                         {"lists", t.lists},
+                         {"far field", far},
+                         {"coupling", ex}})
+    out << ' ' << s.name << ' ' << 100.0 * s.seconds / whole << " %,";
+  out << " whole run " << duration_text(seconds);
+  return out.str();
+}
+
+void write_summary(const std::filesystem::path& file, const Installation& run,
+                   const CoupledRock& coupled, double seconds)
+{
+  const PileRecord& r = run.last();
+  const Breakage& broken = run.breakage();
+  std::ostringstream out;
+  const auto number = [&](const char* name, double value, const char* end = ",\n") {
+    out << "  \"" << name << "\": " << dem::shortest(value) << end;
+  };
+  const auto count = [](std::size_t n) { return static_cast<double>(n); };
+  out << "{\n";
+  number("depth [m]", r.depth);
+  number("tip depth [m]", r.tip_depth);
+  number("q_c [Pa]", r.q_c);
+  number("largest q_c [Pa]", run.peak());
+  number("tip force of the full pile [N]", r.F_tip);
+  number("shaft force of the full pile [N]", r.F_shaft);
+  number("bonds [-]", count(coupled.rock.bonds.size()));
+  number("bonds broken [-]", count(r.broken));
+  number("broken within 2 D_p of the axis [-]", count(broken.near));
+  number("broken more than D_p above the shoulder [-]", count(broken.above));
+  number("largest energy error [-]", run.worst_energy_error());
+  number("largest interface force error [-]", run.worst_interface().force);
+  number("largest interface moment error [-]", run.worst_interface().moment);
+  number("largest interface power error [-]", run.worst_interface().power);
+  number("particles [-]", count(coupled.rock.particles.n_owned));
+  number("far-field cells [-]", count(coupled.far_field.n_cells()));
+  number("steps [-]", count(coupled.n_steps));
+  number("time step [s]", coupled.dt);
+  number("wall-clock time [s]", seconds, "\n");
+  out << "}\n";
+  dem::replace_file(file, out.str());
+}
+
+void print_summary(const std::filesystem::path& folder, const PileCase& c,
+                   const Installation& run, const CoupledRock& coupled, double seconds)
+{
+  const PileRecord& r = run.last();
+  const Breakage& broken = run.breakage();
+  const auto percent = [](std::size_t part, std::size_t whole) {
+    return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+  };
+  std::cout.precision(4);
+  std::cout << "\npile at " << 1e3 * r.depth << " mm (" << r.depth / c.diameter
+            << " D_p): q_c " << 1e-6 * r.q_c << " MPa, largest " << 1e-6 * run.peak()
+            << " MPa; tip " << r.F_tip << " N, shaft " << r.F_shaft << " N (full pile)\n"
+            << "bonds broken: " << r.broken << " of " << coupled.rock.bonds.size() << "; "
+            << percent(broken.near, broken.all) << " % within 2 D_p of the axis, "
+            << broken.above << " more than D_p above the shoulder when they broke\n"
+            << "energy book closes to " << 100.0 * run.worst_energy_error()
+            << " % of the input; interface balances to " << run.worst_interface().force
+            << " (force), " << run.worst_interface().moment << " (moment), "
+            << run.worst_interface().power << " (power)\n"
+            << shares(coupled, seconds) << "\nresults: " << folder.string()
+            << " (history.csv, summary.json, *.pvd for ParaView); pictures: mergel-view "
+            << folder.string() << "\n";
+}
+
+} // namespace
+
+void help_pile(std::ostream& out)
+{
+  CaseFile file;
+  PileCase c;
+  declare(file, c);
+  file.help(out);
+}
+
+int run_pile(const JobOptions& options)
+{
+  const double start = dem::wall_clock();
+  CaseFile file;
+  PileCase c;
+  declare(file, c);
+  file.read(options.case_file, options.set);
+  complete(file, c);
+  const OutputFolder folder(options.output,
+                            options.overwrite ? Earlier::overwrite : Earlier::keep);
+  std::vector<std::filesystem::path> inputs{options.case_file};
+  if (!c.rock.sample.empty()) inputs.push_back(c.rock.sample);
+  folder.check(inputs);
+
+  fem::FarField far_field = make_far_field(c.rock);
+  coupling::Interface interface =
+      coupling::make_interface(far_field.interface(), c.rock.interface, c.rock.lip);
+  const dem::Sample sample = obtain_sample(file, c.rock);
+  std::cout << far_field.summary() << '\n' << report(c.rock, sample) << '\n';
+
+  folder.commit(inputs);
+  file.write_resolved(folder.path() / "resolved.prm");
+  dem::write_sample(folder.path() / "sample.h5", sample);
+
+  CoupledRock coupled(c.rock, sample, std::move(far_field), std::move(interface));
+  PileOutput output(folder.path(), c);
+  equilibrate(coupled, c.rock.balance, 200'000);
+  Installation run(c, coupled, output);
+  run.run();
+
+  const double seconds = dem::wall_clock() - start;
+  write_summary(folder.path() / "summary.json", run, coupled, seconds);
+  print_summary(folder.path(), c, run, coupled, seconds);
+  return 0;
+}
+
+} // namespace mergel::apps

@@ -1,0 +1,32 @@
+/// Case of `mergel pile`: rock, pile and output.
+#pragma once
+
+#include "apps/rock_case.h"
+
+namespace mergel::apps {
+
+struct PileCase {
+  RockCase rock;
+
+  // Pile
+  double diameter = unset;     ///< [m]
+  double cone_angle = unset;   ///< full angle at the tip [rad]
+  double velocity = unset;     ///< downwards [m/s]
+  double final_depth = unset;  ///< of the shoulder below the surface [m]
+  dem::LinearMaterial contact; ///< with the grains; kappa is that of the grains
+
+  // Output
+  double record_every = unset; ///< travel between lines of history.csv [m]
+  int frames = 20;             ///< pictures of the fields after the first
+
+  double cone_height() const;
+  /// From the tip at the surface to the shoulder at the final depth [m].
+  double travel() const { return final_depth + cone_height(); }
+};
+
+void declare(CaseFile& file, PileCase& c);
+
+/// @throws InputError naming file, line and key
+void complete(const CaseFile& file, PileCase& c);
+
+} // namespace mergel::apps

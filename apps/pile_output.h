@@ -1,0 +1,43 @@
+/// What a pile run leaves behind: history.csv, fields for ParaView, summary.
+#pragma once
+
+#include "apps/coupled_rock.h"
+#include "apps/pile_case.h"
+#include "dem/io/history.h"
+#include "dem/io/vtk.h"
+
+namespace mergel::apps {
+
+/// One line of history.csv. Forces are those of the full pile: the half model's, doubled.
+struct PileRecord {
+  double time = 0.0;       ///< since the pile began to move [s]
+  double depth = 0.0;      ///< of the shoulder; negative while the cone enters [m]
+  double tip_depth = 0.0;  ///< [m]
+  double F_tip = 0.0;      ///< upwards, on the cone, mean since the last record [N]
+  double F_shaft = 0.0;    ///< upwards, on the cylinder, mean since the last record [N]
+  double q_c = 0.0;        ///< F_tip / (pi D^2/4) [Pa]
+  std::size_t broken = 0;  ///< bonds so far
+  double unbalanced = 0.0; ///< [-]
+  double kinetic = 0.0;    ///< of the grains, half model [J]
+  coupling::InterfaceBalance interface;
+  double energy_error = 0.0; ///< unexplained energy over the input [-]
+  dem::EnergyBook book;      ///< since the pile began to move, half model
+};
+
+class PileOutput {
+public:
+  PileOutput(const std::filesystem::path& folder, const PileCase& c);
+
+  void record(const PileRecord& r);
+  /// Particles, bonds, pile and far field at this time [s].
+  void frame(double time, const CoupledRock& coupled);
+
+private:
+  std::filesystem::path fields_;
+  double diameter_;
+  dem::History history_;
+  dem::Series particles_, bonds_, pile_, far_field_;
+  int n_frames_ = 0;
+};
+
+} // namespace mergel::apps

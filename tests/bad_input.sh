@@ -1,0 +1,168 @@
+#!/usr/bin/env bash
+# Every piece of bad input gets one line that says what is wrong, exit code 1, and leaves the
+# disk as it was.
+#
+# usage: tests/bad_input.sh MERGEL [CASE.prm]
+#   MERGEL    the program
+#   CASE.prm  a good case of the job pile; default apps/cases/pile_small.prm
+# Prints one line for each check that fails, then a count; exit code 1 if any failed.
+set -euo pipefail
+
+[ $# -ge 1 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 1; }
+root=$(dirname "$(dirname "$(readlink -f "$0")")")
+mergel=$(readlink -f "$1")
+case_file=$(readlink -f "${2:-$root/apps/cases/pile_small.prm}")
+
+# A specimen that is made in seconds, and is not the one of CASE.prm.
+tiny=(--set "Specimen/diameter=6 mm" --set "Specimen/height=6 mm")
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+n_checks=0 n_failed=0
+
+# Names and contents of all files below the working folder.
+tree() { find . -mindepth 1 -printf '%y %p %l\n' -type f -exec cksum {} + | sort; }
+
+fail()
+{
+  n_failed=$((n_failed + 1))
+  printf 'FAILED  %s: %s\n' "$name" "$1"
+  sed 's/^/        | /' "$log"
+}
+
+# refuse NAME PATTERN ARGUMENT...: mergel ARGUMENT... must be refused with one line that matches
+# the extended regular expression PATTERN as a whole.
+refuse()
+{
+  local name=$1 pattern=$2 before code=0
+  shift 2
+  local log=$work.log
+  n_checks=$((n_checks + 1))
+  before=$(tree)
+  timeout 120 "$mergel" "$@" >"$log" 2>&1 </dev/null || code=$?
+  if [ "$code" -ne 1 ]; then
+    fail "exit code $code, not 1"
+  elif [ "$(wc -l <"$log")" -ne 1 ]; then
+    fail "not one line"
+  elif ! grep -Eqx -- "$pattern" "$log"; then
+    fail "does not match $pattern"
+  elif [ "$(tree)" != "$before" ]; then
+    diff <(echo "$before") <(tree) >>"$log" || true
+    fail "the disk is changed"
+  fi
+  rm -f "$log"
+}
+
+# refuse_set NAME PATTERN SETTING...: the same for --set over the good case.
+refuse_set()
+{
+  local name=$1 pattern=$2 options=() setting
+  shift 2
+  for setting in "$@"; do options+=(--set "$setting"); done
+  refuse "$name" "$pattern" pile good.prm "${options[@]}" --output out
+}
+
+# edited NAME SED: the good case, edited; it must differ.
+edited()
+{
+  sed -E "$2" good.prm >"$1"
+  if cmp -s good.prm "$1"; then
+    echo "bad_input.sh: \"$2\" changes nothing in $case_file" >&2
+    exit 1
+  fi
+}
+
+# In a file a relative path starts at the file's folder: keep those of the good case valid.
+sed -E "s#^([[:space:]]*set[^=]*=[[:space:]]*)(\.\.?/)#\1$(dirname "$case_file")/\2#" \
+  "$case_file" >good.prm
+
+## the command line
+refuse "no job" 'mergel: no job is given\. .*'
+refuse "unknown job" 'mergel: unknown job "piel"\. Did you mean "pile"\?' piel good.prm
+refuse "no case" 'mergel pile: no case file is given\. .*' pile
+refuse "unknown option" 'mergel pile: .*--outptu.*' pile good.prm --outptu out
+refuse "malformed --set" '--set "diameter": is not understood\. .*' pile good.prm --set diameter
+
+## the case file
+refuse "missing case file" 'none\.prm: no such case file\. .*' pile none.prm --output out
+mkdir folder
+refuse "folder as case file" 'folder: is a folder, not a case file\. .*' pile folder --output out
+edited case.prm 's/set diameter( *=.*mm)/set diametre\1/'
+refuse "unknown key" 'case\.prm:[0-9]+: (Pile|Specimen)/diametre = .*: unknown key .*"diameter".*' \
+  pile case.prm --output out
+edited case.prm 's/subsection Pile/subsection Piles/'
+refuse "unknown section" 'case\.prm:[0-9]+: unknown section "Piles"\. Did you mean "Pile"\?' \
+  pile case.prm --output out
+edited case.prm '/subsection Pile/,/end/s/(set diameter *= *[0-9.]+) *[a-z]+/\1/'
+refuse "value without unit" 'case\.prm:[0-9]+: Pile/diameter = [0-9.]+: has no unit.*mm\.' \
+  pile case.prm --output out
+edited case.prm '/subsection Pile/,/end/s/(set diameter *= *).*/\11.4 MPa/'
+refuse "wrong dimension" \
+  'case\.prm:[0-9]+: Pile/diameter = 1\.4 MPa: unit "MPa" has the wrong dimension.*mm\.' \
+  pile case.prm --output out
+edited case.prm '/subsection Bond/,/end/s/(set tensile strength *= *).*/\1-1 MPa/'
+refuse "negative strength" \
+  'case\.prm:[0-9]+: Bond/tensile strength = -1 MPa: must satisfy .*> 0.*' \
+  pile case.prm --output out
+edited case.prm '0,/^end/s/^end//'
+refuse "section left open" 'case\.prm:[0-9]+: subsection .*"end".*' pile case.prm --output out
+{ cat good.prm; printf 'subsection Pile\n  set diameter = 2 mm\nend\n'; } >case.prm
+refuse "key given twice" 'case\.prm:[0-9]+: Pile/diameter = 2 mm: already set in line [0-9]+\. .*' \
+  pile case.prm --output out
+
+## values that do not go together; each names a key and where it stands
+place='((good\.prm(:[0-9]+)?: )|--set )'
+refuse_set "porosity that spheres cannot reach" "${place}Specimen/porosity = 0\.2: .*" \
+  "Specimen/porosity=0.2"
+refuse_set "pile wider than the DEM region" "${place}(Pile|Specimen)/diameter = .*: .*" \
+  "Pile/diameter=20 mm"
+refuse_set "DEM region wider than the far field" "${place}(Specimen|Far field)/.* = .*: .*" \
+  "Specimen/diameter=30 mm"
+
+## the output folder
+echo text >file
+refuse "a file in the way" 'output folder file: .*file" is in its way and is no folder\. .*' \
+  pile good.prm --output file
+refuse "a file above" 'output folder file/results: .*file" is in its way and is no folder\. .*' \
+  pile good.prm --output file/results
+mkdir earlier earlier/fields
+echo text >earlier/history.csv
+echo text >earlier/fields/particles.vtp
+refuse "an earlier run" \
+  'output folder earlier: holds an earlier run \(fields\)\. .*--overwrite\.' \
+  pile good.prm --output earlier
+refuse "bad input with --overwrite" '--set Pile/diameter = 1\.4: has no unit.*' \
+  pile good.prm --output earlier --overwrite --set "Pile/diameter=1.4"
+if [ "$(id -u)" -ne 0 ]; then # root may write everywhere
+  mkdir locked
+  chmod a-w locked
+  refuse "a folder without permission" 'output folder locked: cannot be written: .*' \
+    pile good.prm --output locked
+fi
+
+## sample files
+echo "no sample" >text.h5
+refuse_set "missing sample" '.*missing\.h5.*' "Specimen/file=missing.h5"
+refuse_set "folder as sample" '.*folder.*' "Specimen/file=folder"
+refuse_set "text as sample" '.*text\.h5.*' "Specimen/file=text.h5"
+if ! "$mergel" sample good.prm "${tiny[@]}" --output tiny >tiny.log 2>&1; then
+  echo "bad_input.sh: mergel sample failed:" >&2
+  cat tiny.log >&2
+  exit 1
+fi
+size=$(stat -c %s tiny/sample.h5)
+head -c $((size / 2)) tiny/sample.h5 >half.h5
+head -c $((size - 1)) tiny/sample.h5 >short.h5
+head -c 100 tiny/sample.h5 >head.h5
+: >empty.h5
+for sample in half short head empty; do
+  refuse_set "truncated sample ($sample)" ".*$sample\.h5.*" "Specimen/file=$sample.h5"
+done
+refuse_set "sample of another case" '.*tiny/sample\.h5.*' "Specimen/file=tiny/sample.h5"
+refuse "sample that --overwrite would remove" \
+  'output folder tiny: --overwrite would remove .*sample\.h5, which this run reads\. .*' \
+  pile good.prm "${tiny[@]}" --set "Specimen/file=tiny/sample.h5" --output tiny --overwrite
+
+echo "bad input: $((n_checks - n_failed)) of $n_checks refused as they should be"
+[ "$n_failed" -eq 0 ]

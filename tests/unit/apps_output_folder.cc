@@ -1,0 +1,209 @@
+#include "apps/output_folder.h"
+
+#include "dem/error.h"
+#include "dem/io/atomic_file.h"
+
+#include <catch2/catch.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+using namespace mergel;
+using namespace mergel::apps;
+using Catch::Matchers::Contains;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own for one test.
+class Folder {
+public:
+  Folder()
+  {
+    std::string name = (fs::temp_directory_path() / "mergel_out_XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path = name;
+  }
+  ~Folder()
+  {
+    fs::permissions(path, fs::perms::owner_all);
+    fs::remove_all(path);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  fs::path path;
+};
+
+void touch(const fs::path& file)
+{
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << "x";
+}
+
+/// Everything below a folder, sorted.
+std::vector<std::string> tree(const fs::path& folder)
+{
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    names.push_back(entry.path().lexically_relative(folder).string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// What check() and commit() say; they must agree.
+std::string refusal(const fs::path& folder, Earlier earlier,
+                    const std::vector<fs::path>& inputs = {})
+{
+  const auto message = [](auto&& call) -> std::string {
+    try {
+      call();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const OutputFolder output(folder, earlier);
+  const std::string by_check = message([&] { output.check(inputs); });
+  if (by_check != "accepted") CHECK(message([&] { output.commit(inputs); }) == by_check);
+  return by_check;
+}
+
+const std::vector<std::string> own = {
+    ".history.partial.csv", "damage.png",   "fields/p_0000.vtp",
+    "history.csv",          "load.png",     "mergel.log",
+    "particles.pvd",        "resolved.prm", "sample.h5",
+    "summary.json"};
+
+} // namespace
+
+TEST_CASE("check() changes nothing and commit() makes the folder", "[unit][apps]")
+{
+  const Folder folder;
+  const OutputFolder output(folder.path / "results" / "pile", Earlier::keep);
+  output.check();
+  CHECK(tree(folder.path).empty());
+  output.commit();
+  CHECK(tree(folder.path) == std::vector<std::string>{"results", "results/pile"});
+  output.commit(); // an empty folder is as good as none
+  CHECK(output.path() == folder.path / "results" / "pile");
+}
+
+TEST_CASE("A folder of other files is taken as it is", "[unit][apps]")
+{
+  const Folder folder;
+  touch(folder.path / "notes.txt");
+  touch(folder.path / "history.csv.bak");
+  touch(folder.path / "photo.png");
+  fs::create_directory(folder.path / "history.csv"); // a folder is none of mergel's files
+  const auto before = tree(folder.path);
+  for (const Earlier earlier : {Earlier::keep, Earlier::overwrite}) {
+    OutputFolder(folder.path, earlier).commit();
+    CHECK(tree(folder.path) == before);
+  }
+}
+
+TEST_CASE("Each file of an earlier run is recognised and kept", "[unit][apps]")
+{
+  for (const std::string& name : own) {
+    const Folder folder;
+    touch(folder.path / name);
+    const auto before = tree(folder.path);
+    CHECK(refusal(folder.path, Earlier::keep) ==
+          "output folder " + folder.path.string() + ": holds an earlier run (" +
+              fs::path(name).begin()->string() +
+              "). Choose another folder with --output, or replace that run with "
+              "--overwrite.");
+    CHECK(tree(folder.path) == before);
+  }
+}
+
+TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps]")
+{
+  const Folder folder;
+  const fs::path results = folder.path / "results";
+  const std::vector<std::string> others = {
+      "case.prm", "damage.png.txt",   "figure.png",        "partial.csv",
+      "pile.log", "more/history.csv", ".notes.partial.txt"};
+  for (const auto& names : {own, others})
+    for (const std::string& name : names) touch(results / name);
+  touch(folder.path / "precious" / "data");
+  fs::create_symlink(folder.path / "precious", results / "link");
+  const auto before = tree(folder.path);
+
+  const OutputFolder output(results, Earlier::overwrite);
+  output.check();
+  CHECK(tree(folder.path) == before);
+
+  output.commit();
+  std::vector<std::string> expected = others;
+  expected.insert(expected.end(), {"link", "more"});
+  std::sort(expected.begin(), expected.end());
+  CHECK(tree(results) == expected);
+  CHECK(fs::exists(folder.path / "precious" / "data"));
+}
+
+TEST_CASE("--overwrite removes links, never what they point to", "[unit][apps]")
+{
+  const Folder folder;
+  const fs::path results = folder.path / "results";
+  touch(folder.path / "precious" / "sample.h5");
+  fs::create_directory(results);
+  fs::create_symlink(folder.path / "precious", results / "fields");
+  fs::create_symlink(folder.path / "precious" / "sample.h5", results / "sample.h5");
+  OutputFolder(results, Earlier::overwrite).commit();
+  CHECK(tree(results).empty());
+  CHECK(fs::exists(folder.path / "precious" / "sample.h5"));
+}
+
+TEST_CASE("--overwrite does not remove what the run is to read", "[unit][apps]")
+{
+  const Folder folder;
+  const fs::path sample = folder.path / "sample.h5", field = folder.path / "fields/a.vtp";
+  touch(sample);
+  touch(field);
+  touch(folder.path / "notes.txt");
+  const auto before = tree(folder.path);
+  for (const fs::path& input : {sample, field, folder.path / "." / "sample.h5"})
+    CHECK(refusal(folder.path, Earlier::overwrite, {input}) ==
+          "output folder " + folder.path.string() + ": --overwrite would remove " +
+              input.string() +
+              ", which this run reads. Choose another folder with --output.");
+  CHECK(tree(folder.path) == before);
+  CHECK(refusal(folder.path, Earlier::overwrite,
+                {"", folder.path / "notes.txt", folder.path / "missing.h5"}) == "accepted");
+}
+
+TEST_CASE("Something in the way of the folder is named", "[unit][apps]")
+{
+  const Folder folder;
+  const fs::path file = folder.path / "file";
+  touch(file);
+  for (const fs::path& wanted : {file, file / "results", file / "results" / "pile"})
+    CHECK(refusal(wanted, Earlier::overwrite) ==
+          "output folder " + wanted.string() + ": \"" + file.string() +
+              "\" is in its way and is no folder. Choose another folder with --output.");
+  fs::create_symlink(folder.path / "nowhere", folder.path / "dangling");
+  CHECK_THAT(refusal(folder.path / "dangling", Earlier::keep),
+             Contains("dangling\" is in its way and is no folder"));
+  CHECK(refusal("", Earlier::keep) == "output folder: no name is given. Use --output DIR.");
+}
+
+TEST_CASE("A folder that cannot be written is refused before it is used", "[unit][apps]")
+{
+  // a file system that takes no folders says so only when asked for one
+  CHECK_THROWS_WITH(OutputFolder("/proc/mergel", Earlier::keep).commit(),
+                    Contains("output folder /proc/mergel: cannot be"));
+  if (geteuid() == 0) return; // root may write everywhere
+  const Folder folder;
+  fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
+  CHECK_THAT(refusal(folder.path / "results", Earlier::keep),
+             Contains("cannot be written: Permission denied"));
+}

@@ -1,0 +1,155 @@
+#include "apps/progress.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+using namespace mergel::apps;
+using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
+
+namespace {
+
+/// A progress output into a string, with a clock that the test sets.
+struct Screen {
+  explicit Screen(bool is_terminal) : is_terminal_(is_terminal) {}
+
+  ProgressOutput output()
+  {
+    return {&text, is_terminal_, 79, [this] { return now; }};
+  }
+  /// What was written since the last call.
+  std::string take()
+  {
+    const std::string taken = text.str();
+    text.str("");
+    return taken;
+  }
+
+  std::ostringstream text;
+  double now = 100.0;
+
+private:
+  bool is_terminal_;
+};
+
+} // namespace
+
+TEST_CASE("Durations are told in their two largest units", "[unit][apps]")
+{
+  CHECK(duration_text(-1.0) == "0 s");
+  CHECK(duration_text(0.4) == "0 s");
+  CHECK(duration_text(59.4) == "59 s");
+  CHECK(duration_text(59.6) == "1 min");
+  CHECK(duration_text(80.0) == "1 min 20 s");
+  CHECK(duration_text(3600.0) == "1 h");
+  CHECK(duration_text(2 * 3600.0 + 5 * 60.0 + 7.0) == "2 h 5 min");
+  CHECK(duration_text(86400.0 * 3 + 4 * 3600.0) == "3 d 4 h");
+}
+
+TEST_CASE("On a terminal one line is rewritten at most five times a second", "[unit][apps]")
+{
+  Screen screen(true);
+  Progress progress("driving", screen.output());
+  int n_details = 0;
+  const auto detail = [&] {
+    ++n_details;
+    return std::string("depth 1.15 mm (0.82 D_p)  q_c 12.3 MPa");
+  };
+  for (int step = 1; step <= 1000; ++step) { // 1 s in steps of 1 ms
+    screen.now = 100.0 + 0.001 * step;
+    progress.update(1e-5 * step, detail);
+  }
+  CHECK(n_details >= 4); // 5 but for rounding of the clock
+  CHECK(n_details <= 5);
+  CHECK(screen.take().find('\n') == std::string::npos);
+
+  screen.now = 120.0;
+  progress.update(0.2, detail);
+  const std::string line =
+      "\rdriving   20.0 %  depth 1.15 mm (0.82 D_p)  q_c 12.3 MPa  1 min 20 s left";
+  CHECK(screen.take() == line);
+
+  screen.now = 130.0;
+  progress.done("q_c 12.4 MPa"); // shorter: the rest of the old line is wiped
+  const std::string last = "\rdriving  done  q_c 12.4 MPa  in 30 s";
+  CHECK(screen.take() == last + std::string(line.size() - last.size(), ' ') + "\n");
+}
+
+TEST_CASE("A line longer than the terminal is cut", "[unit][apps]")
+{
+  Screen screen(true);
+  Progress progress("driving", screen.output());
+  screen.now += 1.0;
+  progress.update(0.5, std::string(200, 'x'));
+  CHECK(screen.take().size() == 1 + 79);
+}
+
+TEST_CASE("Off a terminal there is a plain line every ten seconds", "[unit][apps]")
+{
+  Screen screen(false);
+  Progress progress("filling", screen.output());
+  for (int step = 1; step <= 350; ++step) { // 35 s of 50 s
+    screen.now = 100.0 + 0.1 * step;
+    progress.update(step / 500.0, "n 0.52");
+  }
+  // the lines come at 10, 20 and 30 s, or one step later
+  const std::string text = screen.take();
+  CHECK(std::count(text.begin(), text.end(), '\n') == 3);
+  CHECK(text.find('\r') == std::string::npos);
+  CHECK_THAT(text, Contains("filling   20.") && Contains(" %  n 0.52  40 s left\n"));
+  progress.done();
+  CHECK(screen.take() == "filling  done  in 35 s\n");
+}
+
+TEST_CASE("The time left follows a rate that changes", "[unit][apps]")
+{
+  Screen screen(false);
+  Progress progress("driving", screen.output());
+  double fraction = 0.0;
+  for (int step = 1; step <= 200; ++step) { // 1 %/s for 20 s, then a tenth of it
+    screen.now += 1.0;
+    fraction += step <= 20 ? 0.01 : 0.001;
+    progress.update(fraction);
+  }
+  // 0.38 done after 200 s: the mean rate would say 326 s, the present one says 620 s.
+  // The old rate still counts exp(-180/20), under 1 %.
+  const std::string text = screen.take();
+  CHECK_THAT(text, EndsWith("driving   38.0 %  10 min 20 s left\n") ||
+                       EndsWith("driving   38.0 %  10 min 19 s left\n"));
+}
+
+TEST_CASE("No time left is told in the first seconds, without progress, or at the end",
+          "[unit][apps]")
+{
+  Screen screen(true);
+  Progress progress("driving", screen.output());
+  screen.now += 1.0;
+  progress.update(0.1);
+  CHECK(screen.take() == "\rdriving   10.0 %");
+  screen.now += 9.0;
+  progress.update(1.0);
+  CHECK(screen.take() == "\rdriving  100.0 %");
+
+  Progress stuck("driving", screen.output());
+  screen.now += 5.0;
+  stuck.update(0.0);
+  CHECK(screen.take() == "\rdriving    0.0 %");
+}
+
+TEST_CASE("An open line is ended when the stage is left early", "[unit][apps]")
+{
+  Screen screen(true);
+  {
+    Progress progress("driving", screen.output());
+    screen.now += 1.0;
+    progress.update(0.1);
+  }
+  CHECK(screen.take() == "\rdriving   10.0 %\n");
+  { // nothing shown, nothing to end
+    Progress progress("driving", screen.output());
+  }
+  CHECK(screen.take().empty());
+}

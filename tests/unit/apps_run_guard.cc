@@ -1,0 +1,108 @@
+#include "apps/run_guard.h"
+
+#include "apps/words.h"
+#include "dem/error.h"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+using namespace mergel;
+using namespace mergel::apps;
+
+namespace {
+
+/// What run_guarded() returns and prints for a body.
+struct Outcome {
+  int code;
+  std::string printed;
+};
+
+template <class Body>
+Outcome outcome(const Body& body)
+{
+  std::ostringstream caught;
+  std::streambuf* const before = std::cerr.rdbuf(caught.rdbuf());
+  const int code = run_guarded(body);
+  std::cerr.rdbuf(before);
+  return {code, caught.str()};
+}
+
+template <class Error>
+Outcome thrown(const Error& error)
+{
+  return outcome([&]() -> int { throw error; });
+}
+
+/// Stands for dealii::ExceptionBase: a std::exception of many lines.
+struct ManyLines : std::exception {
+  explicit ManyLines(const std::string& name)
+      : text(
+            "\n----------------------------------------\nAn error occurred in line <9> of "
+            "file <a.cc> in function\n    f()\nThe name and call sequence of the exception "
+            "was:\n    " +
+            name +
+            "\nAdditional information: \n    Bad - luck.\n\nStacktrace:\n---\n#0 f()\n")
+  {
+  }
+  const char* what() const noexcept override { return text.c_str(); }
+  std::string text;
+};
+
+} // namespace
+
+TEST_CASE("The exit code tells bad input, failure and bug apart", "[unit][apps]")
+{
+  CHECK(outcome([] { return 0; }).code == 0);
+  CHECK(outcome([] { return 0; }).printed.empty());
+  CHECK(outcome([] { return 2; }).code == 2);
+
+  CHECK(thrown(InputError("pile.prm:1: bad")).code == 1);
+  CHECK(thrown(InputError("pile.prm:1: bad")).printed == "pile.prm:1: bad\n");
+  CHECK(thrown(std::invalid_argument("bad")).code == 1);
+  CHECK(thrown(NumericalError("a NaN")).code == 2);
+  CHECK(thrown(NumericalError("a NaN")).printed == "a NaN\n");
+  CHECK(thrown(std::filesystem::filesystem_error("full", std::error_code())).code == 2);
+  CHECK(thrown(std::bad_alloc()).code == 2);
+  CHECK(thrown(std::out_of_range("at 7")).code == 3);
+  CHECK(
+      thrown(std::out_of_range("at 7")).printed ==
+      "mergel: internal error: at 7. Please report this with the case file and the command "
+      "line.\n");
+  CHECK(thrown(42).code == 3);
+}
+
+TEST_CASE("A library's long message becomes one line without its stack trace",
+          "[unit][apps]")
+{
+  const std::string cause =
+      "An error occurred in line <9> of file <a.cc> in function f() The name and call "
+      "sequence of the exception was: ExcX() Additional information: Bad - luck.";
+  const auto [code, printed] = thrown(ManyLines("ExcX()"));
+  CHECK(code == 3);
+  CHECK(printed == "mergel: internal error: " + cause +
+                       " Please report this with the case file and the command line.\n");
+  CHECK(thrown(ManyLines("SolverControl::NoConvergence(9, 1.)")).code == 2);
+  CHECK(thrown(ManyLines("ExcFileNotOpen(name)")).code == 2);
+  CHECK(thrown(InputError("a\nb")).printed == "a b\n");
+  CHECK(thrown(InputError("")).printed == "no message\n");
+}
+
+TEST_CASE("The nearest word is the one a user meant, or none", "[unit][apps]")
+{
+  CHECK(edit_distance("kitten", "sitting") == 3);
+  CHECK(edit_distance("", "abc") == 3);
+  CHECK(edit_distance("Pile", "pile") == 0);
+  const std::vector<std::string> words = {"pile", "sample", "cone angle"};
+  CHECK(nearest("pille", words) == "pile");
+  CHECK(nearest("Sampel", words) == "sample");
+  CHECK(nearest("cone_angel", words) == "cone angle");
+  CHECK(nearest("velocity", words).empty());
+  CHECK(nearest("", words).empty());
+  CHECK(nearest("xy", {"ab"}).empty()); // two letters off in two is another word
+}
