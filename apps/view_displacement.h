@@ -1,0 +1,16 @@
+/// How far the rock has moved since the first frame of a run.
+#pragma once
+
+#include "apps/view_results.h"
+
+namespace mergel::apps {
+
+inline constexpr const char* displacement_array = "displacement since frame 0";
+
+/// Give particles and far field of `frame` the point array `displacement_array`: the
+/// distance moved since `start` [mm]. Particles are found again by their id.
+/// @returns the distance that 98 % of the particles stay below [mm]; debris flies further
+/// @throws InputError when the two frames are not of one run
+double add_displacement(const ResultFrame& start, ResultFrame& frame);
+
+} // namespace mergel::apps

@@ -1,0 +1,250 @@
+#include "apps/view_page.h"
+
+#include "dem/error.h"
+#include "dem/io/atomic_file.h"
+#include "dem/notation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <vtkActor2D.h>
+#include <vtkCellArray.h>
+#include <vtkErrorCode.h>
+#include <vtkImageShrink3D.h>
+#include <vtkPNGWriter.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty2D.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkWindowToImageFilter.h>
+
+namespace mergel::apps {
+
+namespace {
+
+constexpr int oversampling = 2;
+constexpr double text_units = 27.0;   // height of ordinary text
+constexpr double tick_units = 8.0;    // length of a tick
+constexpr double frame_units = 1.8;   // width of frames and ticks
+constexpr double number_units = 15.0; // from the frame to the numbers
+
+/// Filled convex polygons of one colour.
+class Shapes {
+public:
+  void add(const std::vector<Pixel>& corners)
+  {
+    cells_->InsertNextCell(static_cast<int>(corners.size()));
+    for (const Pixel& p : corners)
+      cells_->InsertCellPoint(
+          points_->InsertNextPoint(oversampling * p.x, oversampling * p.y, 0.0));
+  }
+
+  void show(vtkRenderer* overlay, const Colour& colour)
+  {
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points_);
+    data->SetPolys(cells_);
+    vtkNew<vtkPolyDataMapper2D> mapper; // its coordinates are pixels of the window
+    mapper->SetInputData(data);
+    vtkNew<vtkActor2D> actor;
+    actor->SetMapper(mapper);
+    actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+    overlay->AddActor2D(actor);
+  }
+
+private:
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> cells_;
+};
+
+} // namespace
+
+Page::Page(int width, int height)
+    : width_(width), height_(height), unit_(std::min(width / 1600.0, height / 1200.0))
+{
+  window_->SetOffScreenRendering(1);
+  window_->SetMultiSamples(0);
+  window_->SetSize(oversampling * width, oversampling * height);
+  window_->SetNumberOfLayers(2);
+  paper_->SetBackground(1.0, 1.0, 1.0);
+  window_->AddRenderer(paper_);
+  overlay_->SetLayer(1);
+  window_->AddRenderer(overlay_);
+}
+
+vtkRenderer* Page::scene(const Box& box)
+{
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1.0, 1.0, 1.0);
+  renderer->SetViewport(box.left / width_, box.bottom / height_, box.right / width_,
+                        box.top / height_);
+  window_->AddRenderer(renderer);
+  return renderer; // the window keeps it alive
+}
+
+void Page::line(const std::vector<Pixel>& points, const Colour& colour, double units_wide)
+{
+  // Bars and round joints: lines of the graphics library gape where they bend.
+  const double half = 0.5 * units_wide * unit_;
+  Shapes shapes;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+    const Pixel a = points[k], b = points[k + 1];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0.0)) continue;
+    const double nx = -half * (b.y - a.y) / length, ny = half * (b.x - a.x) / length;
+    shapes.add({{a.x + nx, a.y + ny},
+                {a.x - nx, a.y - ny},
+                {b.x - nx, b.y - ny},
+                {b.x + nx, b.y + ny}});
+    std::vector<Pixel> joint;
+    constexpr int n_sides = 12;
+    for (int side = 0; side < n_sides; ++side) {
+      const double angle = 2.0 * dem::pi * side / n_sides;
+      joint.push_back({b.x + half * std::cos(angle), b.y + half * std::sin(angle)});
+    }
+    if (k + 2 < points.size()) shapes.add(joint);
+  }
+  shapes.show(overlay_, colour);
+}
+
+void Page::fill(const Box& box, const Colour& colour)
+{
+  Shapes shapes;
+  shapes.add({{box.left, box.bottom},
+              {box.right, box.bottom},
+              {box.right, box.top},
+              {box.left, box.top}});
+  shapes.show(overlay_, colour);
+}
+
+void Page::text(const Pixel& at, const std::string& words, const TextStyle& style)
+{
+  vtkNew<vtkTextActor> actor;
+  actor->SetInput(words.c_str());
+  vtkTextProperty* look = actor->GetTextProperty();
+  look->SetFontFamilyToArial();
+  look->SetFontSize(
+      static_cast<int>(std::lround(oversampling * unit_ * text_units * style.size)));
+  look->SetColor(ink[0], ink[1], ink[2]);
+  look->SetBold(style.is_bold ? 1 : 0);
+  look->SetOrientation(style.is_vertical ? 90.0 : 0.0);
+  look->SetJustification(style.across == Across::left     ? VTK_TEXT_LEFT
+                         : style.across == Across::middle ? VTK_TEXT_CENTERED
+                                                          : VTK_TEXT_RIGHT);
+  look->SetVerticalJustification(style.up == Up::foot     ? VTK_TEXT_BOTTOM
+                                 : style.up == Up::middle ? VTK_TEXT_CENTERED
+                                                          : VTK_TEXT_TOP);
+  actor->SetPosition(oversampling * at.x, oversampling * at.y);
+  overlay_->AddActor2D(actor);
+}
+
+void Page::save(const std::filesystem::path& png)
+{
+  window_->Render();
+  vtkNew<vtkWindowToImageFilter> image;
+  image->SetInput(window_);
+  image->SetInputBufferTypeToRGB();
+  image->ReadFrontBufferOff();
+  vtkNew<vtkImageShrink3D> average;
+  average->SetInputConnection(image->GetOutputPort());
+  average->SetShrinkFactors(oversampling, oversampling, 1);
+  average->MeanOn();
+
+  dem::replace_file(png, [&](const std::filesystem::path& temporary) {
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputConnection(average->GetOutputPort());
+    writer->SetFileName(temporary.c_str());
+    writer->Write();
+    if (writer->GetErrorCode() != vtkErrorCode::NoError)
+      throw NumericalError(png.string() + ": cannot be written: " +
+                           vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()) +
+                           ".");
+  });
+}
+
+Pixel Panel::at(double x_value, double y_value) const
+{
+  return {box.left + box.width() * (x_value - x.from) / (x.to - x.from),
+          box.bottom + box.height() * (y_value - y.from) / (y.to - y.from)};
+}
+
+std::vector<double> round_ticks(double from, double to, int n)
+{
+  const double low = std::min(from, to), high = std::max(from, to);
+  if (!(high > low)) return {low};
+  const double rough = (high - low) / std::max(n, 1);
+  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10.0 * decade;
+  for (const double round : {5.0, 2.0, 1.0})
+    if (round * decade >= rough * (1.0 - 1e-9)) step = round * decade;
+
+  std::vector<double> ticks;
+  const double slack = 1e-6; // of a step, so that round-off does not lose the last tick
+  for (double k = std::ceil(low / step - slack); k <= high / step + slack; ++k)
+    ticks.push_back(k * step);
+  return ticks;
+}
+
+std::string tick_text(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", std::abs(value));
+  const std::string minus = "\u2212";
+  return (value < 0.0 ? minus : std::string()) + text;
+}
+
+void draw_axes(Page& page, const Panel& panel)
+{
+  const double u = page.unit();
+  const Box& box = panel.box;
+  const Colour grid{0.87, 0.87, 0.87};
+  const auto n_ticks = [&](double length, double spacing) {
+    return static_cast<int>(length / (spacing * u));
+  };
+  const double outward = panel.is_x_on_top ? 1.0 : -1.0;
+  const double x_side = panel.is_x_on_top ? box.top : box.bottom;
+
+  const auto x_ticks = round_ticks(panel.x.from, panel.x.to, n_ticks(box.width(), 85.0));
+  const auto y_ticks = round_ticks(panel.y.from, panel.y.to, n_ticks(box.height(), 80.0));
+  if (panel.has_grid) {
+    for (const double value : x_ticks) {
+      const double x = panel.at(value, panel.y.from).x;
+      page.line({{x, box.bottom}, {x, box.top}}, grid, frame_units);
+    }
+    for (const double value : y_ticks) {
+      const double y = panel.at(panel.x.from, value).y;
+      page.line({{box.left, y}, {box.right, y}}, grid, frame_units);
+    }
+  }
+
+  for (const double value : x_ticks) {
+    const double x = panel.at(value, panel.y.from).x;
+    page.line({{x, x_side}, {x, x_side + outward * tick_units * u}}, ink, frame_units);
+    page.text({x, x_side + outward * number_units * u}, tick_text(value),
+              {0.9, Across::middle, panel.is_x_on_top ? Up::foot : Up::head});
+  }
+  for (const double value : y_ticks) {
+    const double y = panel.at(panel.x.from, value).y;
+    page.line({{box.left - tick_units * u, y}, {box.left, y}}, ink, frame_units);
+    if (panel.has_y_numbers)
+      page.text({box.left - number_units * u, y}, tick_text(value), {0.9, Across::right});
+  }
+
+  page.line({{box.left, box.bottom},
+             {box.right, box.bottom},
+             {box.right, box.top},
+             {box.left, box.top},
+             {box.left, box.bottom}},
+            ink, frame_units);
+
+  page.text({0.5 * (box.left + box.right), x_side + outward * 52.0 * u}, panel.x.title,
+            {1.0, Across::middle, panel.is_x_on_top ? Up::foot : Up::head});
+  TextStyle upwards;
+  upwards.is_vertical = true;
+  page.text({box.left - 95.0 * u, 0.5 * (box.bottom + box.top)}, panel.y.title, upwards);
+}
+
+} // namespace mergel::apps

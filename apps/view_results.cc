@@ -1,0 +1,151 @@
+#include "apps/view_results.h"
+
+#include "dem/error.h"
+#include "dem/io/vtk.h"
+
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <vtkDataArray.h>
+#include <vtkErrorCode.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+namespace mergel::apps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double mm_per_m = 1e3;
+
+/// Listens to VTK's complaints: a reader tells of many kinds of damage in this way only.
+class Complaints : public vtkOutputWindow {
+public:
+  static Complaints* New();
+  void DisplayText(const char* text) override { text_ += text; }
+  const std::string& text() const { return text_; }
+
+private:
+  std::string text_;
+};
+vtkStandardNewMacro(Complaints);
+
+/// While it lives, complaints are collected instead of printed.
+class Listener {
+public:
+  Listener()
+  {
+    vtkOutputWindow::SetInstance(complaints_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+  ~Listener()
+  {
+    vtkOutputWindow::SetInstance(before_);
+    vtkLogger::SetStderrVerbosity(verbosity_before_);
+  }
+  bool heard() const { return !complaints_->text().empty(); }
+
+private:
+  vtkSmartPointer<vtkOutputWindow> before_ = vtkOutputWindow::GetInstance();
+  vtkLogger::Verbosity verbosity_before_ = vtkLogger::GetCurrentVerbosityCutoff();
+  vtkNew<Complaints> complaints_;
+};
+
+void scale(vtkDataArray* lengths)
+{
+  for (vtkIdType k = 0; k < lengths->GetNumberOfTuples(); ++k)
+    for (int c = 0; c < lengths->GetNumberOfComponents(); ++c)
+      lengths->SetComponent(k, c, mm_per_m * lengths->GetComponent(k, c));
+}
+
+vtkDataArray* require_array(vtkDataSet* data, const char* name, int components,
+                            const fs::path& file)
+{
+  vtkDataArray* array = data->GetPointData()->GetArray(name);
+  require(array != nullptr && array->GetNumberOfComponents() == components,
+          file.string() + ": no point array '" + name + "' with " +
+              std::to_string(components) +
+              " component(s). Was it written by 'mergel pile'?");
+  return array;
+}
+
+/// The data set of a .vtp or .vtu in mm.
+template <class Reader>
+auto read(const fs::path& file)
+{
+  require(fs::is_regular_file(file),
+          file.string() + ": does not exist, though the series lists it. Copy the whole "
+                          "results folder, 'fields' included.");
+  vtkNew<Reader> reader;
+  const Listener listener;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  auto* output = reader->GetOutput();
+  require(!listener.heard() && reader->GetErrorCode() == vtkErrorCode::NoError,
+          file.string() + ": is damaged or no VTK file. Copy it again or repeat the run.");
+  require(output->GetNumberOfPoints() > 0, file.string() + ": holds no points.");
+  vtkSmartPointer<std::remove_pointer_t<decltype(output)>> data = output;
+  scale(data->GetPoints()->GetData());
+  return data;
+}
+
+std::vector<dem::SeriesEntry> series(const fs::path& pvd)
+{
+  const Listener listener; // its complaints end in the exception of read_series
+  auto entries = dem::read_series(pvd);
+  require(!entries.empty(), pvd.string() + ": lists no file yet.");
+  return entries;
+}
+
+/// The file of this series written at `time` [s].
+fs::path file_at(double time, const fs::path& pvd)
+{
+  for (const dem::SeriesEntry& entry : series(pvd))
+    if (std::abs(entry.time - time) <= 1e-9 * std::abs(time))
+      return pvd.parent_path() / entry.file;
+  throw InputError(pvd.string() + ": has no file at " + std::to_string(time) +
+                   " s, as particles.pvd has. Choose another --frame.");
+}
+
+} // namespace
+
+ResultFrame read_frame(const fs::path& folder, int number)
+{
+  require(fs::is_directory(folder), folder.string() + ": is no folder.");
+  const auto entries = series(folder / "particles.pvd");
+  const int n = static_cast<int>(entries.size());
+  const int chosen = number < 0 ? n + number : number;
+  require(chosen >= 0 && chosen < n, "--frame " + std::to_string(number) + ": " +
+                                         (folder / "particles.pvd").string() +
+                                         " has frames 0 to " + std::to_string(n - 1) + ".");
+
+  ResultFrame frame;
+  frame.number = static_cast<std::size_t>(chosen);
+  frame.time = entries[frame.number].time;
+
+  const fs::path particles = folder / entries[frame.number].file;
+  frame.particles = read<vtkXMLPolyDataReader>(particles);
+  scale(require_array(frame.particles, "radius", 1, particles));
+  require_array(frame.particles, "damage", 1, particles);
+  require_array(frame.particles, "id", 1, particles);
+
+  frame.pile = read<vtkXMLPolyDataReader>(file_at(frame.time, folder / "pile.pvd"));
+
+  const fs::path far_field = file_at(frame.time, folder / "far_field.pvd");
+  frame.far_field = read<vtkXMLUnstructuredGridReader>(far_field);
+  scale(require_array(frame.far_field, "displacement", 3, far_field));
+  return frame;
+}
+
+} // namespace mergel::apps

@@ -1,0 +1,29 @@
+/// What `mergel pile` left in its folder at one instant, ready to be drawn.
+#pragma once
+
+#include <filesystem>
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+namespace mergel::apps {
+
+/// One frame. Lengths (positions, radii, displacements) are in mm: graphics cards are
+/// happier near 1, and the axes are in mm.
+struct ResultFrame {
+  std::size_t number = 0; ///< position in particles.pvd, from 0
+  double time = 0.0;      ///< [s]
+  vtkSmartPointer<vtkPolyData>
+      particles;                     ///< point arrays "radius" [mm], "damage" [-], "id"
+  vtkSmartPointer<vtkPolyData> pile; ///< its surface; half (y >= 0) or whole
+  vtkSmartPointer<vtkUnstructuredGrid> far_field; ///< point array "displacement" (3) [mm]
+};
+
+/// Read frame `number` of a results folder; a negative number counts from the end (-1: the
+/// last). Pile and far field are those of the same time.
+/// @throws InputError naming the file: missing, damaged, without an array, without that
+/// frame
+ResultFrame read_frame(const std::filesystem::path& folder, int number);
+
+} // namespace mergel::apps

@@ -1,0 +1,394 @@
+#include "apps/view_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <vtkActor.h>
+#include <vtkAppendPolyData.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCleanPolyData.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkCutter.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkExtractEdges.h>
+#include <vtkFloatArray.h>
+#include <vtkLight.h>
+#include <vtkLookupTable.h>
+#include <vtkOpenGLSphereMapper.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
+#include <vtkProperty.h>
+#include <vtkTransform.h>
+#include <vtkTransformPolyDataFilter.h>
+#include <vtkWarpVector.h>
+
+namespace mergel::apps {
+
+namespace {
+
+const Colour steel{0.52, 0.56, 0.61};
+const Colour far_rock{0.955, 0.95, 0.935};
+const Colour mesh_edge{0.80, 0.79, 0.77};
+
+/// xmin, xmax, ymin, ymax, zmin, zmax [mm]
+using Bounds = std::array<double, 6>;
+
+Bounds bounds(vtkDataSet* data)
+{
+  Bounds result;
+  data->GetBounds(result.data());
+  return result;
+}
+
+/// A rectangle of the plane y = 0 [mm].
+struct Window {
+  double x_middle, z_middle, width, height;
+  double left() const { return x_middle - 0.5 * width; }
+  double right() const { return x_middle + 0.5 * width; }
+  double bottom() const { return z_middle - 0.5 * height; }
+  double top() const { return z_middle + 0.5 * height; }
+};
+
+vtkSmartPointer<vtkLookupTable> lookup_table(const RockPicture& picture)
+{
+  vtkNew<vtkColorTransferFunction> blend;
+  blend->SetColorSpaceToLab();
+  for (std::size_t k = 0; k < picture.colours.size(); ++k) {
+    const Colour& c = picture.colours[k];
+    blend->AddRGBPoint(static_cast<double>(k), c[0], c[1], c[2]);
+  }
+  constexpr int n = 256;
+  auto table = vtkSmartPointer<vtkLookupTable>::New();
+  table->SetNumberOfTableValues(n);
+  for (int k = 0; k < n; ++k) {
+    const double s =
+        static_cast<double>(k) / (n - 1) * static_cast<double>(picture.colours.size() - 1);
+    const double* c = blend->GetColor(s);
+    table->SetTableValue(k, c[0], c[1], c[2]);
+  }
+  table->SetRange(picture.low, picture.high);
+  if (picture.is_logarithmic) table->SetScaleToLog10();
+  return table;
+}
+
+/// The particles of the half y >= 0, without those of a whole model in front of the cut.
+vtkSmartPointer<vtkPolyData> behind_the_cut(vtkPolyData* particles,
+                                            const std::string& array)
+{
+  vtkDataArray* radius = particles->GetPointData()->GetArray("radius");
+  vtkDataArray* shown = particles->GetPointData()->GetArray(array.c_str());
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> vertices; // the sphere mapper draws points that belong to one
+  vtkNew<vtkFloatArray> R;       // the sphere mapper reads floats whatever the array's type
+  vtkNew<vtkDoubleArray> value;
+  R->SetName("radius");
+  value->SetName(array.c_str());
+  for (vtkIdType p = 0; p < particles->GetNumberOfPoints(); ++p) {
+    std::array<double, 3> x;
+    particles->GetPoint(p, x.data());
+    if (x[1] < -1e-3 * radius->GetTuple1(p)) continue; // round-off on the plane is kept
+    vertices->InsertNextCell(1);
+    vertices->InsertCellPoint(points->InsertNextPoint(x.data()));
+    R->InsertNextValue(static_cast<float>(radius->GetTuple1(p)));
+    value->InsertNextValue(shown->GetTuple1(p));
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points);
+  result->SetVerts(vertices);
+  result->GetPointData()->AddArray(R);
+  result->GetPointData()->SetScalars(value);
+  return result;
+}
+
+vtkSmartPointer<vtkActor> spheres(vtkPolyData* particles, vtkLookupTable* table)
+{
+  vtkNew<vtkOpenGLSphereMapper> mapper; // one shaded quad per sphere
+  mapper->SetInputData(particles);
+  mapper->SetScaleArray("radius");
+  mapper->SetLookupTable(table);
+  mapper->UseLookupTableScalarRangeOn();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetAmbient(0.35);
+  actor->GetProperty()->SetDiffuse(0.70);
+  return actor;
+}
+
+/// The whole pile: a half one gets its mirror image.
+vtkSmartPointer<vtkActor> pile(vtkPolyData* surface)
+{
+  vtkNew<vtkAppendPolyData> whole;
+  whole->AddInputData(surface);
+  const Bounds b = bounds(surface);
+  if (b[2] > -0.1 * b[3]) {
+    vtkNew<vtkTransform> mirror;
+    mirror->Scale(1.0, -1.0, 1.0);
+    vtkNew<vtkTransformPolyDataFilter> image;
+    image->SetInputData(surface);
+    image->SetTransform(mirror);
+    image->Update();
+    whole->AddInputData(image->GetOutput());
+  }
+  vtkNew<vtkCleanPolyData> joined; // one set of normals across the seam
+  joined->SetInputConnection(whole->GetOutputPort());
+  joined->SetTolerance(1e-6);
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputConnection(joined->GetOutputPort());
+  normals->SetFeatureAngle(20.0); // the shoulder of a 60 degree cone turns by 30
+  normals->ConsistencyOn();
+  normals->AutoOrientNormalsOff();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(normals->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  vtkProperty* look = actor->GetProperty();
+  look->SetColor(steel[0], steel[1], steel[2]);
+  look->SetAmbient(0.25);
+  look->SetDiffuse(0.75);
+  look->SetSpecular(0.35);
+  look->SetSpecularPower(25.0);
+  return actor;
+}
+
+/// The section of the far field just behind y = 0, and the mesh in it.
+struct Section {
+  vtkSmartPointer<vtkActor> face, edges;
+};
+
+Section section(vtkUnstructuredGrid* far_field, const RockPicture& picture,
+                vtkLookupTable* table)
+{
+  vtkNew<vtkWarpVector> moved; // where it is now, as the particles are
+  moved->SetInputData(far_field);
+  moved->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS,
+                                "displacement");
+  const Bounds b = bounds(far_field);
+  vtkNew<vtkPlane> plane;
+  plane->SetNormal(0.0, 1.0, 0.0);
+  plane->SetOrigin(0.0, 1e-4 * (b[1] - b[0]), 0.0); // inside the elements that end at y = 0
+  vtkNew<vtkCutter> cut;
+  cut->SetInputConnection(moved->GetOutputPort());
+  cut->SetCutFunction(plane);
+  cut->GenerateTrianglesOff();
+
+  vtkNew<vtkPolyDataMapper> face_mapper;
+  face_mapper->SetInputConnection(cut->GetOutputPort());
+  face_mapper->SetScalarVisibility(picture.is_far_field_coloured ? 1 : 0);
+  if (picture.is_far_field_coloured) {
+    face_mapper->SetScalarModeToUsePointFieldData();
+    face_mapper->SelectColorArray(picture.array.c_str());
+    face_mapper->SetLookupTable(table);
+    face_mapper->UseLookupTableScalarRangeOn();
+    face_mapper->InterpolateScalarsBeforeMappingOn();
+  }
+  auto face = vtkSmartPointer<vtkActor>::New();
+  face->SetMapper(face_mapper);
+  face->GetProperty()->SetColor(far_rock[0], far_rock[1], far_rock[2]);
+  face->GetProperty()->LightingOff();
+
+  vtkNew<vtkExtractEdges> lines;
+  lines->SetInputConnection(cut->GetOutputPort());
+  vtkNew<vtkPolyDataMapper> edge_mapper;
+  edge_mapper->SetInputConnection(lines->GetOutputPort());
+  edge_mapper->ScalarVisibilityOff();
+  edge_mapper->SetResolveCoincidentTopologyToPolygonOffset();
+  auto edges = vtkSmartPointer<vtkActor>::New();
+  edges->SetMapper(edge_mapper);
+  edges->GetProperty()->SetColor(mesh_edge[0], mesh_edge[1], mesh_edge[2]);
+  edges->GetProperty()->SetLineWidth(2.0F);
+  edges->GetProperty()->LightingOff();
+  return {face, edges};
+}
+
+void look_along_y(vtkRenderer* scene, const Window& window)
+{
+  vtkCamera* camera = scene->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetFocalPoint(window.x_middle, 0.0, window.z_middle);
+  camera->SetPosition(window.x_middle, -10.0 * window.height, window.z_middle);
+  camera->SetViewUp(0.0, 0.0, 1.0);
+  camera->SetParallelScale(0.5 * window.height);
+  scene->ResetCameraClippingRange();
+
+  // Directions from the picture: a lamp over the left shoulder, and a weak one at the eye.
+  scene->AutomaticLightCreationOff();
+  vtkNew<vtkLight> lamp, eye;
+  lamp->SetLightTypeToCameraLight();
+  lamp->SetPosition(-0.7, 0.4, 1.2);
+  lamp->SetIntensity(0.7);
+  eye->SetLightTypeToHeadlight();
+  eye->SetIntensity(0.4);
+  scene->AddLight(lamp);
+  scene->AddLight(eye);
+}
+
+/// Where a value stands on the colour bar: 0 at its foot, 1 at its head.
+double fraction(const RockPicture& picture, double value)
+{
+  if (picture.is_logarithmic)
+    return std::log(value / picture.low) / std::log(picture.high / picture.low);
+  return (value - picture.low) / (picture.high - picture.low);
+}
+
+/// Values written beside the colour bar.
+std::vector<double> legend_ticks(const RockPicture& picture)
+{
+  if (!picture.is_logarithmic) return round_ticks(picture.low, picture.high, 5);
+  std::vector<double> decades;
+  for (const double k : round_ticks(std::log10(picture.low), std::log10(picture.high), 4))
+    decades.push_back(std::pow(10.0, k));
+  return decades;
+}
+
+/// The colour bar, its title above it.
+void draw_legend(Page& page, const Box& bar, const RockPicture& picture,
+                 vtkLookupTable* table)
+{
+  const double u = page.unit();
+  const vtkIdType n = table->GetNumberOfTableValues();
+  for (vtkIdType k = 0; k < n;
+       ++k) { // the table's entries are evenly spaced on either scale
+    const double* c = table->GetTableValue(k);
+    const double from = static_cast<double>(k) / static_cast<double>(n);
+    const double to = static_cast<double>(k + 1) / static_cast<double>(n);
+    page.fill({bar.left, bar.bottom + bar.height() * from, bar.right,
+               bar.bottom + bar.height() * to},
+              {c[0], c[1], c[2]});
+  }
+  page.line({{bar.left, bar.bottom},
+             {bar.right, bar.bottom},
+             {bar.right, bar.top},
+             {bar.left, bar.top},
+             {bar.left, bar.bottom}},
+            ink, 1.8);
+  for (const double value : legend_ticks(picture)) {
+    const double y = bar.bottom + bar.height() * fraction(picture, value);
+    page.line({{bar.right, y}, {bar.right + 8.0 * u, y}}, ink, 1.8);
+    page.text({bar.right + 16.0 * u, y}, tick_text(value), {0.9, Across::left});
+  }
+  page.text({bar.left, bar.top + 22.0 * u}, picture.legend, {1.0, Across::left, Up::foot});
+}
+
+/// Where the panels go, and what they show.
+struct Layout {
+  Box main, close_up, bar;
+  Window whole, tip;
+  bool has_close_up = false;
+};
+
+/// Distance from the axis [mm] within which nearly all particles lie; debris flies further.
+double region_radius(vtkPolyData* particles)
+{
+  std::vector<double> x(static_cast<std::size_t>(particles->GetNumberOfPoints()));
+  for (std::size_t p = 0; p < x.size(); ++p)
+    x[p] = std::abs(particles->GetPoint(static_cast<vtkIdType>(p))[0]);
+  const auto k = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(x.size() - 1));
+  std::nth_element(x.begin(), x.begin() + k, x.end());
+  return 1.05 * x[static_cast<std::size_t>(k)];
+}
+
+Layout layout(const Page& page, const ResultFrame& frame)
+{
+  const double u = page.unit();
+  const double left = 130.0 * u, top = page.height() - 90.0 * u;
+  const double legend = 250.0 * u, gap = 105.0 * u;
+  const double room = page.width() - legend - left;
+
+  const Bounds dem = bounds(frame.particles);
+  const double radius = region_radius(frame.particles);
+  const double depth = -dem[4]; // the surface is z = 0
+  const double above = std::clamp(bounds(frame.pile)[5], 0.0, 0.3 * depth) + 0.05 * depth;
+  Layout result;
+  Window& whole = result.whole;
+  whole.height = above + 1.08 * depth; // a strip of far field below, the pile above
+  whole.z_middle = above - 0.5 * whole.height;
+  whole.x_middle = 0.0;
+
+  // As high as the page, unless that would leave no room for the width.
+  const double least_width = 2.3 * radius, good_width = 2.7 * radius;
+  const double px_per_mm = std::min((top - 115.0 * u) / whole.height, room / least_width);
+  const double height = whole.height * px_per_mm, bottom = top - height;
+  double main_width = std::min(room, std::max(good_width, 0.5 * whole.height) * px_per_mm);
+
+  const double close_up = room - main_width - gap;
+  result.has_close_up = close_up > 0.4 * height;
+  if (!result.has_close_up) main_width = room;
+  whole.width = main_width / px_per_mm;
+  result.main = {left, bottom, left + main_width, top};
+
+  if (result.has_close_up) {
+    result.close_up = {left + main_width + gap, bottom, left + room, top};
+    const Bounds p = bounds(frame.pile);
+    result.tip.width = 6.0 * (p[1] - p[0]);
+    result.tip.height = result.tip.width * height / close_up;
+    result.tip.x_middle = 0.0;
+    result.tip.z_middle = p[4] + 0.1 * result.tip.height;
+  }
+  result.bar = {page.width() - legend + 45.0 * u, bottom + 0.25 * height,
+                page.width() - legend + 85.0 * u, bottom + 0.75 * height};
+  return result;
+}
+
+} // namespace
+
+std::vector<Colour> damage_colours()
+{
+  return {{0.94, 0.91, 0.83},
+          {0.96, 0.75, 0.50},
+          {0.90, 0.47, 0.28},
+          {0.72, 0.17, 0.16},
+          {0.38, 0.02, 0.08}};
+}
+
+std::vector<Colour> displacement_colours()
+{
+  return {{0.95, 0.96, 0.92},
+          {0.66, 0.83, 0.83},
+          {0.33, 0.63, 0.75},
+          {0.16, 0.39, 0.62},
+          {0.08, 0.13, 0.37}};
+}
+
+void draw_rock(Page& page, const ResultFrame& frame, const RockPicture& picture)
+{
+  const auto table = lookup_table(picture);
+  const auto particles = behind_the_cut(frame.particles, picture.array);
+  const Layout where = layout(page, frame);
+
+  const auto draw = [&](const Box& box, const Window& window, const std::string& z_title) {
+    vtkRenderer* scene = page.scene(box);
+    const Section far_field = section(frame.far_field, picture, table);
+    scene->AddActor(far_field.face);
+    scene->AddActor(far_field.edges);
+    scene->AddActor(spheres(particles, table));
+    scene->AddActor(pile(frame.pile));
+    look_along_y(scene, window);
+
+    Panel panel;
+    panel.box = box;
+    panel.x = {window.left(), window.right(), "x (mm)"};
+    panel.y = {window.bottom(), window.top(), z_title};
+    draw_axes(page, panel);
+    return panel;
+  };
+
+  const Panel main = draw(where.main, where.whole, "z (mm)");
+  if (where.has_close_up) {
+    draw(where.close_up, where.tip, "");
+    const Pixel low = main.at(where.tip.left(), where.tip.bottom());
+    const Pixel high = main.at(where.tip.right(), where.tip.top());
+    page.line({low, {high.x, low.y}, high, {low.x, high.y}, low}, ink, 2.5);
+  }
+  draw_legend(page, where.bar, picture, table);
+  page.text({where.main.left, where.main.top + 25.0 * page.unit()}, picture.caption,
+            {1.1, Across::left, Up::foot});
+}
+
+} // namespace mergel::apps

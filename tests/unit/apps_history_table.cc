@@ -1,0 +1,145 @@
+#include "apps/history_table.h"
+
+#include "dem/error.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include <unistd.h>
+
+using namespace mergel;
+using namespace mergel::apps;
+
+namespace {
+
+/// A history.csv with these contents, removed at the end.
+class File {
+public:
+  explicit File(const std::string& contents)
+  {
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "mergel-history-XXXXXX").string();
+    const int number = ::mkstemp(pattern.data());
+    if (number >= 0) ::close(number);
+    path = pattern;
+    std::ofstream(path) << contents;
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  ~File() { std::filesystem::remove(path); }
+  std::filesystem::path path;
+};
+
+std::string message_of(const std::string& contents)
+{
+  const File file(contents);
+  try {
+    read_history(file.path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("columns are found by name and unit, in any order", "[unit][apps]")
+{
+  const File file("time [s],depth/D_p [-],q_c [Pa],note\n"
+                  "0,0,1e6,7\r\n"
+                  "\n"
+                  " 1e-3 , +0.5 ,3.0000000000000004e6,8\n");
+  const HistoryTable table = read_history(file.path);
+  CHECK(table.n_rows == 2);
+  CHECK(table.column("time", "s") == std::vector<double>{0.0, 1e-3});
+  CHECK(table.column("depth/D_p", "-") == std::vector<double>{0.0, 0.5});
+  CHECK(table.column("q_c", "Pa") == std::vector<double>{1e6, 3.0000000000000004e6});
+  CHECK(table.column("note", "") == std::vector<double>{7.0, 8.0});
+  CHECK(table.has("q_c"));
+  CHECK_FALSE(table.has("q_c [Pa]"));
+  CHECK_FALSE(table.is_last_line_cut);
+}
+
+TEST_CASE("a missing column and a wrong unit are told apart from what is there",
+          "[unit][apps]")
+{
+  const File file("time [s],q_c [MPa]\n0,1\n");
+  const HistoryTable table = read_history(file.path);
+  CHECK_THROWS_AS(table.column("depth", "m"), InputError);
+  CHECK_THROWS_WITH(table.column("q_c", "Pa"), Catch::Contains(file.path.string()) &&
+                                                   Catch::Contains("'q_c [Pa]'") &&
+                                                   Catch::Contains("'q_c [MPa]'"));
+}
+
+TEST_CASE("the line a run is still writing is left out and reported", "[unit][apps]")
+{
+  // "1.2" may be the beginning of "1.25": a line without its end is never trusted.
+  for (const char* last : {"2,1.2", "2", "2,"}) {
+    const File file(std::string("time [s],depth [m]\n1,1.1\n") + last);
+    const HistoryTable table = read_history(file.path);
+    INFO(last);
+    CHECK(table.n_rows == 1);
+    CHECK(table.is_last_line_cut);
+  }
+}
+
+TEST_CASE("values that a run did not have are NaN", "[unit][apps]")
+{
+  const File file("time [s],a [-],b [-]\n1,nan,\n");
+  const HistoryTable table = read_history(file.path);
+  CHECK(std::isnan(table.column("a", "-")[0]));
+  CHECK(std::isnan(table.column("b", "-")[0]));
+}
+
+TEST_CASE("a damaged history is refused with file and line", "[unit][apps]")
+{
+  const std::string head = "time [s],depth [m]\n";
+  CHECK_THAT(message_of(head + "1,2\n3\n"),
+             Catch::Contains(":3: 1 values under 2 headings"));
+  CHECK_THAT(message_of(head + "1,2,3\n"),
+             Catch::Contains(":2: 3 values under 2 headings"));
+  CHECK_THAT(message_of(head + "1,two\n"),
+             Catch::Contains(":2: 'two' under 'depth' is not a number"));
+  CHECK_THAT(message_of(head + "1,2m\n"), Catch::Contains("'2m'"));
+  CHECK_THAT(message_of(head), Catch::Contains("no record"));
+  CHECK_THAT(message_of(""), Catch::Contains("no record"));
+  CHECK_THAT(message_of("a [m],a [s]\n1,2\n"), Catch::Contains("two columns"));
+  CHECK_THAT(message_of("a [m],\n1,2\n"), Catch::Contains("no name"));
+  CHECK_THROWS_AS(read_history("/nowhere/history.csv"), InputError);
+  CHECK_THROWS_AS(read_history("/tmp"), InputError);
+}
+
+TEST_CASE("interpolation is linear between records, constant beyond, and skips NaN",
+          "[unit][apps]")
+{
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> x{0.0, 1.0, 2.0, 4.0}, y{10.0, 20.0, none, 50.0};
+  CHECK(interpolate(x, y, 0.5) == Approx(15.0));
+  CHECK(interpolate(x, y, 1.0) == 20.0);
+  CHECK(interpolate(x, y, 2.5) == Approx(35.0)); // between the records at 1 and 4
+  CHECK(interpolate(x, y, -1.0) == 10.0);
+  CHECK(interpolate(x, y, 9.0) == 50.0);
+  CHECK(std::isnan(interpolate({}, {}, 0.0)));
+}
+
+TEST_CASE("the moving mean keeps a straight line and counts each row once", "[unit][apps]")
+{
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  // Out of order, as after a hold that moves back a little; 0.2 twice.
+  const std::vector<double> x{0.0, 0.1, 0.2, 0.4, 0.3, 0.2},
+      y{0.0, 1.0, 2.0, 4.0, 3.0, 2.0};
+  const auto mean = moving_mean(x, y, 0.21);
+  CHECK(mean[1] == Approx((0.0 + 1.0 + 2.0 + 2.0) / 4.0));
+  CHECK(mean[2] == Approx(2.0));
+  CHECK(mean[5] == mean[2]);
+  CHECK(mean[3] == Approx(3.5)); // half a window at the end
+
+  const auto with_gap = moving_mean({0.0, 0.1, 0.2}, {1.0, none, 3.0}, 0.5);
+  CHECK(with_gap[0] == Approx(2.0));
+  CHECK(std::isnan(with_gap[1]));
+}
