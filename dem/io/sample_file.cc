@@ -5,7 +5,8 @@
 #include <hdf5.h>
 
 #include <cstring>
-#include <memory>
+#include <fstream>
+#include <iterator>
 
 namespace mergel::dem {
 
@@ -61,24 +62,53 @@ private:
   void* data_ = nullptr;
 };
 
-/// FNV-1a over everything that a sample says.
-class Checksum {
-public:
-  void add(const void* data, std::size_t bytes)
-  {
-    const auto* b = static_cast<const unsigned char*>(data);
-    for (std::size_t k = 0; k < bytes; ++k) value_ = (value_ ^ b[k]) * 0x100000001b3u;
-  }
-  template <class T>
-  void add(const std::vector<T>& v)
-  {
-    add(v.data(), v.size() * sizeof(T));
-  }
-  std::uint64_t value() const { return value_; }
+/// What follows the HDF5 data: a mark and the sum of all bytes before it. HDF5 ignores it; a
+/// file without it, or with another sum, is never shown to HDF5, which does not survive every
+/// damaged file.
+const std::string mark = "mergel sample, FNV-1a ";
+constexpr std::size_t digits = 16;
 
-private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
-};
+std::string fnv_1a(const std::string& bytes, std::size_t n)
+{
+  std::uint64_t sum = 0xcbf29ce484222325u;
+  for (std::size_t k = 0; k < n; ++k)
+    sum = (sum ^ static_cast<unsigned char>(bytes[k])) * 0x100000001b3u;
+  std::string hex(digits, '0');
+  for (std::size_t k = digits; k-- > 0; sum >>= 4) hex[k] = "0123456789abcdef"[sum & 15u];
+  return hex;
+}
+
+std::string all_bytes(const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  if (!in) throw NumericalError(file.string() + ": cannot be read");
+  return bytes;
+}
+
+void seal(const std::filesystem::path& file)
+{
+  const std::string bytes = all_bytes(file);
+  std::ofstream out(file, std::ios::binary | std::ios::app);
+  out << mark << fnv_1a(bytes, bytes.size());
+  out.flush();
+  if (!out) throw NumericalError(file.string() + ": cannot be written; is the disk full?");
+}
+
+/// @throws InputError when the file was not sealed, or was changed since
+void check_seal(const std::filesystem::path& file)
+{
+  const std::string bytes = all_bytes(file);
+  const std::string hdf5 = "\x89HDF\r\n\x1a\n";
+  if (bytes.compare(0, hdf5.size(), hdf5) != 0)
+    throw InputError("is no sample: it is not an HDF5 file; make one with `mergel sample`");
+  const std::size_t tail = mark.size() + digits;
+  if (bytes.size() < tail || bytes.compare(bytes.size() - tail, mark.size(), mark) != 0)
+    throw InputError("is no sample, or is truncated; make one with `mergel sample`");
+  if (bytes.compare(bytes.size() - digits, digits, fnv_1a(bytes, bytes.size() - tail)) != 0)
+    throw InputError(
+        "is damaged (its checksum does not match); make it again with `mergel sample`");
+}
 
 /// The arrays of a sample as they lie in the file.
 struct Columns {
@@ -86,18 +116,6 @@ struct Columns {
   std::vector<std::uint32_t> bonds;
   std::string keys, values; ///< one line each
   double bond_limit = 0.0, porosity = 0.0, whole_porosity = 0.0, overlap = 0.0;
-
-  std::uint64_t checksum() const
-  {
-    Checksum c;
-    for (const auto* v : {&x, &R, &m, &S}) c.add(*v);
-    c.add(bonds);
-    c.add(keys.data(), keys.size());
-    c.add(values.data(), values.size());
-    for (const double a : {bond_limit, porosity, whole_porosity, overlap})
-      c.add(&a, sizeof a);
-    return c.value();
-  }
 };
 
 void write_array(hid_t file, const char* name, hid_t type, const void* data, hsize_t rows,
@@ -204,21 +222,8 @@ void write_columns(const std::filesystem::path& path, const Columns& c)
   write_attribute(file, "porosity", H5T_NATIVE_DOUBLE, &c.porosity);
   write_attribute(file, "whole_porosity", H5T_NATIVE_DOUBLE, &c.whole_porosity);
   write_attribute(file, "overlap", H5T_NATIVE_DOUBLE, &c.overlap);
-  const std::uint64_t checksum = c.checksum();
-  write_attribute(file, "checksum", H5T_NATIVE_UINT64, &checksum);
   file.finish("write " + path.string());
-}
-
-/// The text attribute `format`, or "" when the file has none.
-std::string format_of(hid_t file)
-{
-  if (H5Aexists(file, "format") <= 0) return "";
-  const Handle a(H5Aopen(file, "format", H5P_DEFAULT), H5Aclose, "find format");
-  const Handle type(H5Aget_type(a), H5Tclose, "read format");
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return "";
-  std::string text(H5Tget_size(type), '\0');
-  if (H5Aread(a, type, text.data()) < 0) return "";
-  return text.c_str();
+  seal(path);
 }
 
 Columns read_columns(const std::filesystem::path& path)
@@ -226,19 +231,14 @@ Columns read_columns(const std::filesystem::path& path)
   if (!std::filesystem::exists(path)) throw InputError("there is no such file");
   if (!std::filesystem::is_regular_file(path)) throw InputError("is not a file");
   const Quiet quiet;
-  if (H5Fis_hdf5(path.c_str()) <= 0)
-    throw InputError("is no sample: it is not an HDF5 file; make one with `mergel sample`");
+  check_seal(path);
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0)
     throw InputError("is damaged or truncated; make it again with `mergel sample`");
   const Handle file(id, H5Fclose, "open it");
-  if (format_of(file) != format)
-    throw InputError(
-        "is no sample: it is some other HDF5 file; make one with `mergel sample`");
 
   Columns c;
   int found = 0;
-  std::uint64_t checksum = 0;
   try {
     read_attribute(file, "version", H5T_NATIVE_INT, &found);
     if (found != version)
@@ -260,14 +260,10 @@ Columns read_columns(const std::filesystem::path& path)
     read_attribute(file, "porosity", H5T_NATIVE_DOUBLE, &c.porosity);
     read_attribute(file, "whole_porosity", H5T_NATIVE_DOUBLE, &c.whole_porosity);
     read_attribute(file, "overlap", H5T_NATIVE_DOUBLE, &c.overlap);
-    read_attribute(file, "checksum", H5T_NATIVE_UINT64, &checksum);
   } catch (const NumericalError& e) {
     throw InputError(std::string("is damaged (") + e.what() +
                      "); make it again with `mergel sample`");
   }
-  if (checksum != c.checksum())
-    throw InputError(
-        "is damaged (its checksum does not match); make it again with `mergel sample`");
   const std::size_t n = c.R.size();
   bool fits = c.x.size() == 3 * n && c.m.size() == n && c.S.size() == n;
   for (const std::uint32_t id_of_end : c.bonds) fits = fits && id_of_end < n;

@@ -21,8 +21,8 @@ struct Sample {
 
 /// Datasets `x` (N x 3, m), `R` (N, m), `m` (N, kg), `S` (N), `bonds` (N_bonds x 2, ids),
 /// `recipe_keys`, `recipe_values`; attributes `format`, `version`, `bond_limit`,
-/// `porosity`, `whole_porosity`, `overlap`, `checksum` (FNV-1a, 64 bit, of all data and
-/// recipe). The file is replaced whole.
+/// `porosity`, `whole_porosity`, `overlap`. After the HDF5 data, which readers of HDF5 do not
+/// see, stands the FNV-1a sum of all bytes. The file is replaced whole.
 /// @throws NumericalError when it cannot be written
 void write_sample(const std::filesystem::path& file, const Sample& sample);
 

@@ -100,10 +100,11 @@ TEST_CASE("what is no sample is refused with the reason", "[unit][dem]")
 
   write_sample(file, three_grains());
   fs::resize_file(file, fs::file_size(file) / 2);
-  CHECK(refusal(file).find("is damaged or truncated") == 0);
+  CHECK(refusal(file).find("is no sample, or is truncated") == 0);
 }
 
-TEST_CASE("no changed byte of a sample is read as if nothing were wrong", "[unit][dem]")
+// HDF5 reads beyond its own memory on some of these files: it must never get them.
+TEST_CASE("a sample with one changed byte is refused, wherever the byte is", "[unit][dem]")
 {
   const Folder folder;
   const fs::path file = folder.path / "s.h5";
@@ -111,32 +112,25 @@ TEST_CASE("no changed byte of a sample is read as if nothing were wrong", "[unit
   std::ifstream in(file, std::ios::binary);
   const std::string good((std::istreambuf_iterator<char>(in)), {});
   in.close();
-  const Sample s = three_grains();
 
-  std::size_t refused = 0, same = 0;
-  for (std::size_t at = 0; at < good.size(); at += 7) {
+  std::size_t n_tried = 0, n_refused = 0;
+  for (std::size_t at = 0; at < good.size(); ++at) {
     overwrite_byte(file, static_cast<std::streamoff>(at),
                    static_cast<char>(good[at] ^ 0x41));
-    std::string why = "read";
-    Sample r;
-    try {
-      r = read_sample(file);
-    } catch (const InputError& e) {
-      why = e.what();
-    }
-    if (why != "read")
-      ++refused;
-    else { // a byte of padding or of unused space: the contents must be those written
-      ++same;
-      REQUIRE(r.packing.particles.size() == 3);
-      CHECK(r.packing.particles.body[1].x == s.packing.particles.body[1].x);
-      CHECK(r.packing.particles.body[2].R == s.packing.particles.body[2].R);
-      CHECK(r.bonding.pairs == s.bonding.pairs);
-      CHECK(r.bonding.limit == s.bonding.limit);
-      CHECK(r.recipe == s.recipe);
-    }
+    ++n_tried;
+    n_refused += refusal(file) != "read";
     overwrite_byte(file, static_cast<std::streamoff>(at), good[at]);
   }
-  CHECK(refused > 100); // the data, the attributes and the structure of the file
-  CHECK(read_sample(file).recipe == s.recipe);
+  CHECK(n_tried > 5000);
+  CHECK(n_refused == n_tried);
+  CHECK(refusal(file) == "read");
+}
+
+TEST_CASE("another HDF5 file is no sample", "[unit][dem]")
+{
+  const Folder folder;
+  const fs::path file = folder.path / "s.h5";
+  write_sample(file, three_grains());
+  fs::resize_file(file, fs::file_size(file) - 10); // HDF5 still opens it, the seal is gone
+  CHECK(refusal(file).find("is no sample, or is truncated") == 0);
 }
