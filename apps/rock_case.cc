@@ -194,6 +194,24 @@ void complete(const CaseFile& file, RockCase& c)
   } catch (const std::invalid_argument& e) {
     throw InputError(file.where("Far field", "chamber diameter") + ": " + e.what());
   }
+  const double largest = s.d_max * std::max(s.scale.S_inner, s.scale.S_outer);
+  if (largest >= 0.5 * std::min(0.5 * c.diameter, c.height))
+    file.refuse("Specimen",
+                s.scale.S_inner > s.scale.S_outer ? "inner upscaling" : "outer upscaling",
+                "the largest grain, " + mm(largest) +
+                    ", does not fit the region: lower the ratio or enlarge the region");
+  if (dem::most_grains(s) > dem::grains_limit)
+    file.refuse(
+        "Specimen", "smallest diameter",
+        "the region may hold more than 2e7 grains: raise the diameters or the upscaling "
+        "ratio");
+  // Shells ten times the volume of their spheres: a slip of units, no rock.
+  if (dem::effective_solid_fraction(s) > 10.0 * (1.0 - s.porosity))
+    file.refuse(
+        "Contact", "activation gap",
+        "with it the grains reach ten times their volume: lower it, or raise `Specimen/smallest "
+        "diameter`, " +
+            mm(s.d_min));
   try {
     s.check();
   } catch (const InputError& e) {

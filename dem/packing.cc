@@ -16,6 +16,9 @@ namespace {
 /// close packing is 0.64, gradings and soft shells reach a little more.
 constexpr double densest_fraction = 0.68;
 
+/// Of the distance: more than this is a packing under pressure, some 10 kPa for grains of 1 GPa.
+constexpr double jammed_overlap = 1e-3;
+
 double chord_angle(const HalfCylinder& c)
 {
   return pi / c.segments;
@@ -78,6 +81,8 @@ void SpecimenSpec::check() const
   require(scale.S_inner > 0.0 && scale.S_outer > 0.0, "upscaling ratios must be positive");
   require(d_min > 0.0 && d_max >= d_min, "grain diameters must be positive and ascend");
   require(porosity > 0.0 && porosity < 1.0, "porosity must lie in (0, 1)");
+  require(most_grains(*this) <= grains_limit, "the region may hold more than 2e7 grains: "
+                                              "raise the upscaling ratio or the diameters");
   const double fraction = effective_solid_fraction(*this);
   if (fraction > densest_fraction) {
     const double lowest = 1.0 - (1.0 - porosity) * densest_fraction / fraction;
@@ -92,9 +97,13 @@ void SpecimenSpec::check() const
   }
   const double largest = d_max * std::max(scale.S_inner, scale.S_outer);
   require(largest < 0.5 * std::min(region.radius, region.height),
-          "the largest grain, " + std::to_string(1e3 * largest) +
-              " mm, does not fit the region well: lower the upscaling ratio or enlarge the "
-              "region");
+          "the largest grain does not fit the region");
+}
+
+double most_grains(const SpecimenSpec& s)
+{
+  const double S = std::min(s.scale.S_inner, s.scale.S_outer);
+  return (1.0 - s.porosity) * s.region.volume() / (pi / 6.0 * mean_cube(s) * S * S * S);
 }
 
 double effective_solid_fraction(const SpecimenSpec& s)
@@ -231,7 +240,9 @@ double core_porosity(const SpecimenSpec& s, const Particles& p)
     d_least = std::min(d_least, 2.0 * b.R);
     margin = std::max(margin, 2.0 * b.R);
   }
-  const double h = 0.1 * d_least;
+  // A hundred million points are enough for any region: 1e-4 of its volume at three digits.
+  const double box = 2.0 * s.region.radius * s.region.radius * s.region.height;
+  const double h = std::max(0.1 * d_least, std::cbrt(box / 1e8));
   const Vec3 low(-s.region.radius, 0.0, -s.region.height);
   const auto count = [h](double length) { return static_cast<long>(length / h) + 1; };
   const long nx = count(2.0 * s.region.radius), ny = count(s.region.radius),
@@ -258,17 +269,17 @@ double core_porosity(const SpecimenSpec& s, const Particles& p)
         }
   }
   std::size_t points = 0, filled = 0;
-  for (long k = 0; k < nz; ++k)
-    for (long j = 0; j < ny; ++j)
-      for (long i = 0; i < nx; ++i) {
-        const Vec3 x = low + h * Vec3(static_cast<double>(i), static_cast<double>(j),
-                                      static_cast<double>(k));
-        if (x.y() < margin || -x.z() < margin || x.z() + s.region.height < margin ||
-            s.region.side_clearance(x) < margin)
-          continue;
+  for (long j = 0; j < ny; ++j)
+    for (long i = 0; i < nx; ++i) {
+      const Vec3 x = low + h * Vec3(static_cast<double>(i), static_cast<double>(j), 0.0);
+      if (x.y() < margin || s.region.side_clearance(x) < margin) continue;
+      for (long k = 0; k < nz; ++k) {
+        const double height = h * static_cast<double>(k);
+        if (height < margin || s.region.height - height < margin) continue;
         ++points;
         filled += solid[place(i, j, k)];
       }
+    }
   require(points > 0, "the region has no core: it is not three largest grains wide");
   return 1.0 - static_cast<double>(filled) / static_cast<double>(points);
 }
@@ -290,6 +301,12 @@ Packing pack(const SpecimenSpec& s, const std::function<void(double)>& progress)
       packing.overlap =
           grow(s, packing.particles, 1.0, tolerance_overlap, sweeps_to_finish, report);
       packing.porosity = core_porosity(s, packing.particles);
+      std::ostringstream text;
+      text.precision(3);
+      text << "cannot be reached unjammed: grains and walls still overlap by "
+           << packing.overlap << " of their distance (at most " << jammed_overlap
+           << "); raise the porosity or lower `Contact/activation gap`";
+      require(packing.overlap <= jammed_overlap, text.str());
       return packing;
     }
     solid += packing.porosity - s.porosity;

@@ -50,6 +50,12 @@ struct SpecimenSpec {
   void check() const;
 };
 
+/// Number of grains if all had the smaller upscaling ratio [-]: a bound.
+double most_grains(const SpecimenSpec& spec);
+
+/// Bound of most_grains(): indices hold 32 bits, and such a run fills a large machine.
+inline constexpr double grains_limit = 2e7;
+
 /// Volume fraction of the spheres with their far-field shell, radius R + g_a S/2, at the
 /// target porosity. Growth finds room for it up to random close packing.
 double effective_solid_fraction(const SpecimenSpec& spec);
@@ -76,7 +82,8 @@ struct Packing {
 /// curve. Growth is overdamped, from 0.6 to 1 of the radii with their far-field shell,
 /// without friction, so the packing is unjammed: at n = 0.52 and g_a = 0.15 d00 the shells
 /// fill 0.626, just under random close packing. `progress` gets a fraction of the work.
-/// @throws InputError when the core cannot be given its porosity
+/// @throws InputError when the core cannot be given its porosity, or only with overlaps
+///   beyond 1e-3 of the distance
 Packing pack(const SpecimenSpec& spec, const std::function<void(double)>& progress);
 
 /// The bonds of a specimen and the gap they reached.
