@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <regex>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -20,11 +21,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 7> own_files{
-    "history.csv", "resolved.prm", "summary.json", "sample.h5",
-    "mergel.log",  "damage.png",   "load.png"};
+constexpr std::array<std::string_view, 11> own_files{
+    "history.csv", "resolved.prm", "summary.json",     "sample.h5",
+    "damage.png",  "load.png",     "displacement.png", "particles.pvd",
+    "bonds.pvd",   "pile.pvd",     "far_field.pvd"};
 constexpr std::string_view own_folder = "fields";
-constexpr std::string_view own_extension = ".pvd";
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& message)
 {
@@ -33,8 +34,15 @@ constexpr std::string_view own_extension = ".pvd";
 
 bool is_own_file(const fs::path& name)
 {
-  return name.extension() == own_extension ||
-         std::find(own_files.begin(), own_files.end(), name.string()) != own_files.end();
+  return std::find(own_files.begin(), own_files.end(), name.string()) != own_files.end();
+}
+
+/// particles_0012.vtp and the like.
+bool is_own_field(const fs::path& name)
+{
+  static const std::regex frame(
+      "(particles|bonds|pile)_[0-9]{4,}\\.vtp|far_field_[0-9]{4,}\\.vtu");
+  return std::regex_match(name.string(), frame);
 }
 
 /// The name that was meant when a run stopped before it could rename its temporary file:
@@ -65,9 +73,12 @@ std::vector<fs::path> OutputFolder::left_by_earlier_run() const
     const fs::path name = entry->path().filename();
     // a link counts as the link, never as what it points to
     const bool is_folder = fs::is_directory(fs::symlink_status(entry->path()));
-    if (is_folder ? name == own_folder
-                  : name == own_folder || is_own_file(final_name(name)))
+    if (!is_folder && (name == own_folder || is_own_file(final_name(name))))
       found.push_back(entry->path());
+    if (is_folder && name == own_folder)
+      for (const fs::directory_entry& field : fs::directory_iterator(entry->path()))
+        if (!field.is_directory() && is_own_field(final_name(field.path().filename())))
+          found.push_back(field.path());
   }
   if (error && fs::exists(folder_))
     refuse(folder_, "cannot be read: " + error.message() + ".");
@@ -99,7 +110,8 @@ void OutputFolder::check(const std::vector<fs::path>& inputs) const
   const std::vector<fs::path> earlier = left_by_earlier_run();
   if (earlier.empty()) return;
   if (earlier_ == Earlier::keep)
-    refuse(folder_, "holds an earlier run (" + earlier.front().filename().string() +
+    refuse(folder_, "holds an earlier run (" +
+                        earlier.front().lexically_relative(folder_).string() +
                         "). Choose another folder with --output, or replace that run with "
                         "--overwrite.");
   for (const fs::path& old : earlier)
@@ -120,11 +132,14 @@ void OutputFolder::commit(const std::vector<fs::path>& inputs) const
   fs::create_directories(folder_, error);
   if (error) refuse(folder_, "cannot be created: " + error.message() + ".");
   for (const fs::path& old : left_by_earlier_run()) {
-    fs::remove_all(old, error); // removes a link, not what it points to
+    fs::remove(old, error); // removes a link, not what it points to
     if (error)
       refuse(folder_, old.filename().string() +
                           " of an earlier run cannot be removed: " + error.message() + ".");
   }
+  const fs::path fields = folder_ / own_folder;
+  if (fs::is_directory(fs::symlink_status(fields)) && fs::is_empty(fields))
+    fs::remove(fields, error);
 }
 
 } // namespace mergel::apps

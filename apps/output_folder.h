@@ -16,8 +16,10 @@ enum class Earlier {
 /// A folder for the results of one run.
 ///
 /// mergel's own files in it, and the marks of an earlier run: history.csv, resolved.prm,
-/// summary.json, sample.h5, mergel.log, every *.pvd, the folder fields/, and mergel-view's
-/// damage.png and load.png; also their temporary files (dem/io/atomic_file.h).
+/// summary.json, sample.h5, the four series particles, bonds, pile and far_field (.pvd, and
+/// their numbered files in fields/), mergel-view's damage.png, load.png and
+/// displacement.png; also their temporary files (dem/io/atomic_file.h). fields/ itself goes
+/// when nothing else is in it.
 class OutputFolder {
 public:
   OutputFolder(std::filesystem::path folder, Earlier earlier);

@@ -115,6 +115,12 @@ refuse "key given twice" 'case\.prm:[0-9]+: Pile/diameter = 2 mm: already set in
 place='((good\.prm(:[0-9]+)?: )|--set )'
 refuse_set "porosity that spheres cannot reach" "${place}Specimen/porosity = 0\.2: .*" \
   "Specimen/porosity=0.2"
+refuse_set "porosity that only pressure reaches" "${place}Specimen/porosity = 0\.485: .*" \
+  "Specimen/porosity=0.485" "Specimen/diameter=6 mm" "Specimen/height=6 mm"
+refuse_set "grains too large for the region" "${place}Specimen/inner upscaling = 20: .*" \
+  "Specimen/inner upscaling=20"
+refuse_set "more grains than a machine holds" "${place}Specimen/smallest diameter = .*: .*2e7.*" \
+  "Specimen/smallest diameter=0.001 mm" "Specimen/largest diameter=0.002 mm"
 refuse_set "pile wider than the DEM region" "${place}(Pile|Specimen)/diameter = .*: .*" \
   "Pile/diameter=20 mm"
 refuse_set "DEM region wider than the far field" "${place}(Specimen|Far field)/.* = .*: .*" \
@@ -128,9 +134,9 @@ refuse "a file above" 'output folder file/results: .*file" is in its way and is 
   pile good.prm --output file/results
 mkdir earlier earlier/fields
 echo text >earlier/history.csv
-echo text >earlier/fields/particles.vtp
+echo text >earlier/fields/particles_0000.vtp
 refuse "an earlier run" \
-  'output folder earlier: holds an earlier run \(fields\)\. .*--overwrite\.' \
+  'output folder earlier: holds an earlier run \(fields/particles_0000\.vtp\)\. .*--overwrite\.' \
   pile good.prm --output earlier
 refuse "bad input with --overwrite" '--set Pile/diameter = 1\.4: has no unit.*' \
   pile good.prm --output earlier --overwrite --set "Pile/diameter=1.4"
@@ -143,9 +149,9 @@ fi
 
 ## sample files
 echo "no sample" >text.h5
-refuse_set "missing sample" '.*missing\.h5.*' "Specimen/file=missing.h5"
-refuse_set "folder as sample" '.*folder.*' "Specimen/file=folder"
-refuse_set "text as sample" '.*text\.h5.*' "Specimen/file=text.h5"
+refuse_set "missing sample" '.*missing\.h5: there is no such file' "Specimen/file=missing.h5"
+refuse_set "folder as sample" '.*folder: is not a file' "Specimen/file=folder"
+refuse_set "text as sample" '.*text\.h5: is no sample: it is not an HDF5 file; .*' "Specimen/file=text.h5"
 if ! "$mergel" sample good.prm "${tiny[@]}" --output tiny >tiny.log 2>&1; then
   echo "bad_input.sh: mergel sample failed:" >&2
   cat tiny.log >&2
@@ -156,10 +162,19 @@ head -c $((size / 2)) tiny/sample.h5 >half.h5
 head -c $((size - 1)) tiny/sample.h5 >short.h5
 head -c 100 tiny/sample.h5 >head.h5
 : >empty.h5
-for sample in half short head empty; do
-  refuse_set "truncated sample ($sample)" ".*$sample\.h5.*" "Specimen/file=$sample.h5"
+for sample in half short; do
+  refuse_set "truncated sample ($sample)" ".*$sample\.h5: is no sample, or is truncated; .*" \
+    "Specimen/file=$sample.h5"
 done
-refuse_set "sample of another case" '.*tiny/sample\.h5.*' "Specimen/file=tiny/sample.h5"
+cp tiny/sample.h5 changed.h5
+printf X | dd of=changed.h5 bs=1 seek=$((size / 2)) conv=notrunc status=none
+refuse_set "changed sample" '.*changed\.h5: is damaged .*' "Specimen/file=changed.h5"
+for sample in head empty; do
+  refuse_set "truncated sample ($sample)" ".*$sample\.h5: is no sample.*" \
+    "Specimen/file=$sample.h5"
+done
+refuse_set "sample of another case" '.*tiny/sample\.h5: was made with diameter = .*the case asks for .*' \
+  "Specimen/file=tiny/sample.h5"
 refuse "sample that --overwrite would remove" \
   'output folder tiny: --overwrite would remove .*sample\.h5, which this run reads\. .*' \
   pile good.prm "${tiny[@]}" --set "Specimen/file=tiny/sample.h5" --output tiny --overwrite

@@ -77,9 +77,9 @@ std::string refusal(const fs::path& folder, Earlier earlier,
 }
 
 const std::vector<std::string> own = {
-    ".history.partial.csv", "damage.png",   "fields/p_0000.vtp",
-    "history.csv",          "load.png",     "mergel.log",
-    "particles.pvd",        "resolved.prm", "sample.h5",
+    ".history.partial.csv",  "damage.png",   "displacement.png",
+    "fields/bonds_0000.vtp", "history.csv",  "load.png",
+    "particles.pvd",         "resolved.prm", "sample.h5",
     "summary.json"};
 
 } // namespace
@@ -117,8 +117,7 @@ TEST_CASE("Each file of an earlier run is recognised and kept", "[unit][apps]")
     touch(folder.path / name);
     const auto before = tree(folder.path);
     CHECK(refusal(folder.path, Earlier::keep) ==
-          "output folder " + folder.path.string() + ": holds an earlier run (" +
-              fs::path(name).begin()->string() +
+          "output folder " + folder.path.string() + ": holds an earlier run (" + name +
               "). Choose another folder with --output, or replace that run with "
               "--overwrite.");
     CHECK(tree(folder.path) == before);
@@ -130,8 +129,9 @@ TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps
   const Folder folder;
   const fs::path results = folder.path / "results";
   const std::vector<std::string> others = {
-      "case.prm", "damage.png.txt",   "figure.png",        "partial.csv",
-      "pile.log", "more/history.csv", ".notes.partial.txt"};
+      "case.prm",           "damage.png.txt", "figure.png",
+      "partial.csv",        "pile.log",       "more/history.csv",
+      ".notes.partial.txt", "my_view.pvd",    "fields/notes.txt"};
   for (const auto& names : {own, others})
     for (const std::string& name : names) touch(results / name);
   touch(folder.path / "precious" / "data");
@@ -144,7 +144,7 @@ TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps
 
   output.commit();
   std::vector<std::string> expected = others;
-  expected.insert(expected.end(), {"link", "more"});
+  expected.insert(expected.end(), {"fields", "link", "more"});
   std::sort(expected.begin(), expected.end());
   CHECK(tree(results) == expected);
   CHECK(fs::exists(folder.path / "precious" / "data"));
@@ -166,7 +166,8 @@ TEST_CASE("--overwrite removes links, never what they point to", "[unit][apps]")
 TEST_CASE("--overwrite does not remove what the run is to read", "[unit][apps]")
 {
   const Folder folder;
-  const fs::path sample = folder.path / "sample.h5", field = folder.path / "fields/a.vtp";
+  const fs::path sample = folder.path / "sample.h5",
+                 field = folder.path / "fields/pile_0003.vtp";
   touch(sample);
   touch(field);
   touch(folder.path / "notes.txt");
