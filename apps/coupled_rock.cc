@@ -11,22 +11,29 @@ namespace mergel::apps {
 
 namespace {
 
-/// Springs of the rock on the far-field nodes [N/m].
+/// Springs of the rock on the far-field nodes [N/m]: bonds, and every contact that may close,
+/// each in full on all corners of the triangles it can reach: a bound.
 std::vector<double> interface_springs(const dem::Rock& rock,
                                       const coupling::Transfer& transfer)
 {
   const dem::Wall& wall = rock.walls.front();
   coupling::Nodal k_dem(wall.x.size(), dem::Vec3::Zero()), k_fem;
-  for (const dem::WallBond& b : wall.bonds) {
-    if (b.state.intact == 0.0) continue;
-    const double R = rock.particles.body[b.particle].R;
-    const double k = dem::bond_shape(rock.material.bond, R, 1.0 / R).k_n +
-                     dem::linear_stiffness(wall.material, R, 1.0 / R).k_n;
-    const dem::Triangle& t =
-        wall.topology.triangles[static_cast<std::size_t>(b.anchor.triangle)];
+  const auto add = [&](int triangle, const dem::Vec3& weight, double k) {
+    const dem::Triangle& t = wall.topology.triangles[static_cast<std::size_t>(triangle)];
     for (int c = 0; c < 3; ++c)
-      k_dem[static_cast<std::size_t>(t[static_cast<std::size_t>(c)])].x() +=
-          b.anchor.weight[c] * k;
+      k_dem[static_cast<std::size_t>(t[static_cast<std::size_t>(c)])].x() += weight[c] * k;
+  };
+  const auto radius = [&](dem::Index i) { return rock.particles.body[i].R; };
+  for (const dem::WallBond& b : wall.bonds) {
+    const double R = radius(b.particle);
+    if (b.state.intact > 0.0)
+      add(b.anchor.triangle, b.anchor.weight,
+          dem::bond_shape(rock.material.bond, R, 1.0 / R).k_n);
+  }
+  for (std::size_t k = 0; k < wall.contacts.size(); ++k) {
+    const double R = radius(wall.contacts[k].particle);
+    for (const int t : wall.near[k])
+      add(t, dem::Vec3::Ones(), dem::linear_stiffness(wall.material, R, 1.0 / R).k_n);
   }
   transfer.to_fem(k_dem, k_fem);
   std::vector<double> k(k_fem.size());
@@ -75,7 +82,7 @@ CoupledRock::CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarF
 void CoupledRock::lower_time_step()
 {
   dt = std::min(dt, dem::stable_time_step(rock, safety));
-  if (model == FarFieldModel::elastic && n_steps == 0) {
+  if (model == FarFieldModel::elastic && n_steps % steps_between_far_field_checks == 0) {
     const double far =
         far_field.stable_time_step(interface_springs(rock, exchange.transfer()));
     dt = std::min(dt, safety * far / std::sqrt(1.0 + rock.motion.damping));
@@ -128,6 +135,7 @@ void relax(CoupledRock& coupled, const char* stage, double ratio, std::size_t mo
   for (std::size_t n = 1; n <= most_steps; ++n) {
     coupled.step([](double) {});
     if (n % 50 != 0) continue;
+    dem::check_overlaps(coupled.rock);
     now = coupled.unbalanced();
     first = std::max(first, now);
     if (coupled.rock.losses.broken > 0)
@@ -160,9 +168,18 @@ void equilibrate(CoupledRock& coupled, double ratio, std::size_t most_steps)
     dem::Wall& wall = coupled.rock.walls.front();
     const coupling::Nodal x = wall.x;
     const coupling::Nodal u = coupled.exchange.settle(wall);
-    for (dem::Body& b : coupled.rock.particles.body)
-      b.x += coupling::interpolate_inside(x, u, b.x);
-    dem::add_forces(coupled.rock, 0.0);
+    // As a motion over one step, so that every history sees it; at rest before and after.
+    const double dt = coupled.dt;
+    for (dem::Body& b : coupled.rock.particles.body) {
+      const dem::Vec3 moved = coupling::interpolate_inside(x, u, b.x);
+      b.x += moved;
+      b.v = moved / dt;
+      b.omega.setZero();
+    }
+    for (std::size_t k = 0; k < u.size(); ++k) wall.v[k] = u[k] / dt;
+    dem::add_forces(coupled.rock, dt);
+    for (dem::Body& b : coupled.rock.particles.body) b.v.setZero();
+    for (dem::Vec3& v : wall.v) v.setZero();
     relax(coupled, "settling with the far field", ratio, most_steps);
   }
   coupled.x_0.clear();

@@ -20,6 +20,7 @@ struct CoupledRock {
   double dt_before = 0.0; ///< the step before [s]
   double safety = 0.7;
   std::size_t n_steps = 0;
+  double time = 0.0;          ///< since the specimen was put in its walls [s]
   std::vector<dem::Vec3> x_0; ///< grains in equilibrium, before anything is driven [m]
 
   CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarField far_field,
@@ -28,15 +29,22 @@ struct CoupledRock {
   CoupledRock& operator=(const CoupledRock&) = delete;
 
   /// One step of rock and far field; `move_pile(dt)` moves what else is driven.
+  /// @throws NumericalError naming what went wrong, the step and the time
   template <class MovePile>
   void step(MovePile&& move_pile)
   {
     if (n_steps % steps_between_checks == 0) lower_time_step();
-    dem::advance(rock, dt_before, dt, [&](double h) {
-      if (model == FarFieldModel::elastic) exchange.step(rock.walls.front(), h);
-      move_pile(h);
-    });
+    try {
+      dem::advance(rock, dt_before, dt, [&](double h) {
+        if (model == FarFieldModel::elastic) exchange.step(rock.walls.front(), h);
+        move_pile(h);
+      });
+    } catch (const NumericalError& e) {
+      throw NumericalError(std::string(e.what()) + " (step " + std::to_string(n_steps) +
+                           ", t = " + std::to_string(1e3 * time) + " ms)");
+    }
     dt_before = dt;
+    time += dt;
     ++n_steps;
   }
 
@@ -57,10 +65,11 @@ struct CoupledRock {
   static double unexplained(const Books& now, const Books& start);
 
   static constexpr std::size_t steps_between_checks = 100;
+  static constexpr std::size_t steps_between_far_field_checks = 5000;
 };
 
-/// The far field of a case and the number of faces around its side, which the specimen must
-/// fit.
+/// The far field of a case; sets the number of faces around its side, which the specimen
+/// must fit. @throws std::invalid_argument as fem::FarField does
 fem::FarField make_far_field(RockCase& c);
 
 /// Bring it to equilibrium (design section 8): walls held, rock relaxed; static solve of

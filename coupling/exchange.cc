@@ -1,18 +1,13 @@
 #include "coupling/exchange.h"
 
-#include <chrono>
+#include "dem/step.h"
+
 #include <cmath>
 #include <map>
 
 namespace mergel::coupling {
 
 namespace {
-
-double now()
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 std::size_t uz(int i)
 {
@@ -90,15 +85,15 @@ Nodal Exchange::settle(dem::Wall& wall)
 
 void Exchange::step(dem::Wall& wall, double dt)
 {
-  const double start = now();
+  const double start = dem::wall_clock();
   forces_up(wall);
-  const double up = now();
+  const double up = dem::wall_clock();
   far_field_.step(dt, f_fem_);
-  const double moved = now();
+  const double moved = dem::wall_clock();
   far_field_.interface_velocity(v_fem_);
   transfer_.to_dem(v_fem_, wall.v);
   for (std::size_t k = 0; k < wall.x.size(); ++k) wall.x[k] += dt * wall.v[k];
-  const double end = now();
+  const double end = dem::wall_clock();
   far_field_seconds += moved - up;
   exchange_seconds += (up - start) + (end - moved);
 }

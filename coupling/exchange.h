@@ -30,21 +30,20 @@ public:
   /// Forces of the wall nodes, summed to the far-field nodes: f_fem = N^T f_dem.
   const Nodal& forces_up(const dem::Wall& wall);
 
-  /// Static equilibrium of the far field under the present wall forces (design section 8),
+  /// For a far field that has not moved yet: static equilibrium under the present wall forces (design section 8),
   /// wall nodes at rest in its displaced place. Returns the displacement of the wall nodes
   /// [m].
   Nodal settle(dem::Wall& wall);
 
   /// Kick and drift the far field with the wall's forces, then move the wall with it over
   /// dt [s].
-  /// @param dt_before is known to the far field from its last step
   void step(dem::Wall& wall, double dt);
 
   const Nodal& far_field_forces() const { return f_fem_; }
   const Nodal& far_field_velocities() const { return v_fem_; }
   const Transfer& transfer() const { return transfer_; }
 
-  /// CPU time spent in the far field and in the exchange itself [s].
+  /// Wall-clock time spent in the far field and in the exchange itself [s].
   double far_field_seconds = 0.0, exchange_seconds = 0.0;
 
 private:

@@ -10,12 +10,11 @@ InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
   const Nodal& f_fem = exchange.forces_up(wall);
   const Nodal& v_fem = exchange.far_field_velocities();
 
-  dem::Vec3 force = dem::Vec3::Zero(), moment = force;
+  // What the far field gets and what the grains feel sum to nothing.
+  dem::Vec3 force = wall.force_on_grains, moment = wall.moment_on_grains;
   double power = 0.0, sum_f = 0.0, sum_m = 0.0, sum_p = 0.0;
   for (std::size_t k = 0; k < wall.f.size(); ++k) {
     const dem::Vec3 f = wall.f[k].value();
-    force -= f;
-    moment -= wall.x[k].cross(f);
     sum_f += f.norm();
     sum_m += wall.x[k].norm() * f.norm();
     sum_p += wall.v[k].norm() * f.norm();

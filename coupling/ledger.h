@@ -9,7 +9,7 @@ namespace mergel::coupling {
 /// Relative differences between what the rock feels from the wall and what the far field
 /// gets [-].
 struct InterfaceBalance {
-  double force = 0.0;  ///< |sum f_fem - sum f_wall| / sum |f_wall|
+  double force = 0.0;  ///< |sum f_fem + sum f_grains| / sum |f_wall|
   double moment = 0.0; ///< about the origin, over sum |x| |f_wall|
   double power =
       0.0; ///< |sum f_fem.v_fem - power at the points of action| / sum |f_wall| |v_wall|

@@ -17,6 +17,17 @@ struct NumericalError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Call f; a NumericalError from it gets the particle's id in front.
+template <class F>
+decltype(auto) naming_particle(unsigned long long id, F&& f)
+{
+  try {
+    return f();
+  } catch (const NumericalError& e) {
+    throw NumericalError("particle " + std::to_string(id) + ": " + e.what());
+  }
+}
+
 /// Throw InputError with this message unless the condition holds.
 inline void require(bool holds, const std::string& message)
 {

@@ -14,8 +14,8 @@ Pile::Meeting Pile::meet(const Body& b) const
 
   const bool inside = z > 0.0 && (z < cone_height ? r * cone_height < R * z : r < R);
   if (inside)
-    throw NumericalError("a particle is inside the pile: centre at r = " +
-                         std::to_string(r) + " m, " + std::to_string(z) +
+    throw NumericalError("its centre is inside the pile, at r = " + std::to_string(r) +
+                         " m, " + std::to_string(z) +
                          " m above the tip; the pile contact is too soft or "
                          "the time step too long");
 
@@ -67,7 +67,8 @@ PileLoad add_pile_forces(const LinearMaterial& material, const Pile& pile, doubl
   PileLoad load;
   for (WallContact& c : contacts.contacts()) {
     Body& body = p.body[c.particle];
-    const auto [touch, part] = pile.meet(body);
+    const auto [touch, part] =
+        naming_particle(p.id[c.particle], [&] { return pile.meet(body); });
     if (touch.gap >= material.g_a * body.S && c.f_s.isZero(0.0)) {
       c.energy = 0.0;
       continue;

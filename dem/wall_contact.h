@@ -39,7 +39,9 @@ inline Vec3 add_wall_contact(const LinearMaterial& material, const Touch& touch,
   const Vec3 arm = touch.point - body.x;
   const Vec3 v_rel = touch.v - body.v - body.omega.cross(arm);
   const Vec3 du_s = dt * (v_rel - v_rel.dot(touch.n) * touch.n);
-  const Vec3 f_old = history.f_s - history.f_s.dot(touch.n) * touch.n;
+  Vec3 f_old = history.f_s - history.f_s.dot(touch.n) * touch.n;
+  const double length = f_old.norm(); // kept, so that turning the wall costs no energy
+  if (length > 0.0) f_old *= history.f_s.norm() / length;
 
   const auto k = linear_stiffness(material, body.R, 1.0 / body.R);
   const double g_a = material.g_a * body.S;

@@ -280,7 +280,7 @@ std::optional<PatchTouch> touch_patch(const Wall& wall, const std::vector<int>& 
     n_features = 1;
     total = closest.overlap;
   }
-  if (!is_inside) throw NumericalError("a particle is on the wrong side of a wall");
+  if (!is_inside) throw NumericalError("its centre is on the wrong side of a wall");
   if (n_features == 0) return std::nullopt;
 
   PatchTouch p;
@@ -439,14 +439,23 @@ void add_wall_forces(const BondMaterial& bond, bool yields, double dt, Particles
 {
   for (VectorSum& f : wall.f) f.clear();
   wall.contact_power = 0.0;
+  wall.force_on_grains = wall.moment_on_grains = Vec3::Zero();
+  const auto book = [&wall](const Vec3& f, const Vec3& point, const Vec3& v) {
+    wall.contact_power -= f.dot(v);
+    wall.force_on_grains += f;
+    wall.moment_on_grains += point.cross(f);
+  };
 
   for (std::size_t c = 0; c < wall.contacts.size(); ++c) {
     WallContact& contact = wall.contacts[c];
     Body& body = p.body[contact.particle];
-    const auto touch = touch_patch(wall, wall.near[c], body, wall.material.g_a * body.S);
+    const auto touch = naming_particle(p.id[contact.particle], [&] {
+      return touch_patch(wall, wall.near[c], body, wall.material.g_a * body.S);
+    });
     if (!touch) {
       const auto k = linear_stiffness(wall.material, body.R, 1.0 / body.R);
-      losses.slip.add(0.5 * contact.f_s.squaredNorm() / k.k_s); // lost as the gap opens
+      if (contact.f_s != Vec3::Zero()) // lost as the gap opens
+        losses.slip.add(0.5 * contact.f_s.squaredNorm() / k.k_s);
       contact.f_s.setZero();
       contact.energy = 0.0;
       continue;
@@ -455,7 +464,7 @@ void add_wall_forces(const BondMaterial& bond, bool yields, double dt, Particles
                                     p.load[contact.particle], contact, losses);
     for (std::size_t s = 0; s < touch->n; ++s)
       push_nodes(wall, touch->shares[s].at, -touch->shares[s].weight * f);
-    wall.contact_power -= f.dot(touch->touch.v);
+    book(f, touch->touch.point, touch->touch.v);
   }
 
   for (WallBond& b : wall.bonds) {
@@ -464,7 +473,7 @@ void add_wall_forces(const BondMaterial& bond, bool yields, double dt, Particles
     const Vec3 v_a = at(wall.v, wall.topology, b.anchor);
     const Vec3 f = add_wall_bond(bond, yields, dt, x_a, v_a, p, b, losses);
     push_nodes(wall, b.anchor, -f);
-    wall.contact_power -= f.dot(v_a);
+    book(f, x_a, v_a);
   }
 }
 

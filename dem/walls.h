@@ -60,6 +60,9 @@ struct Wall {
   LinearMaterial material;
   /// Power of the contact and bond forces at their points of action [W], of the last step.
   double contact_power = 0.0;
+  Vec3 force_on_grains = Vec3::Zero(); ///< sum of the same forces [N]
+  Vec3 moment_on_grains =
+      Vec3::Zero();          ///< about the origin, at their points of action [N m]
   std::vector<Vec3> normals; ///< unit, by triangle; see update_normals()
 
   double energy() const; ///< stored by contacts and bonds [J]
@@ -105,6 +108,7 @@ void bond_to_wall(Wall& wall, Particles& p, double limit);
 
 /// Add contacts and bonds to p.load and wall.f over the step dt [s] that ends now.
 /// @param yields bonds follow the bond law; otherwise they stay elastic
+/// @throws NumericalError naming the particle that is on the wrong side
 void add_wall_forces(const BondMaterial& bond, bool yields, double dt, Particles& p,
                      Wall& wall, PairLosses& losses);
 

@@ -7,7 +7,7 @@
 namespace mergel::dem {
 
 /// Points with radius [m], velocity [m/s], damage (mean over the bonds that the particle
-/// was given; 0 without) [-], force (resultant) [N], S [-], id and displacement from x_0
+/// was given; 0 without) [-], force (resultant of contacts and bonds, without gravity) [N], S [-], id and displacement from x_0
 /// [m].
 void write_particles(const std::filesystem::path& file, const Rock& rock,
                      const std::vector<Vec3>& x_0);

@@ -166,3 +166,48 @@ TEST_CASE("the lip follows the surface nodes and holds the side's normals",
   with.transfer.to_dem(v, down);
   for (const Vec3& each : down) CHECK(each == Vec3(1.0, 2.0, 3.0));
 }
+
+TEST_CASE("rebuilding the lists at every step changes no bit, walls and mirror included",
+          "[verification][coupling]")
+{
+  fem::FarField far_field(small_far_field());
+  const coupling::Interface interface =
+      coupling::make_interface(far_field.interface(), contact, 1e-3);
+  const auto run = [&](bool rebuild_always) {
+    dem::Rock rock = rock_at(interface.wall);
+    rock.motion.damping = 0.3;
+    // A second grain on top of each, and one at the cut: pairs, walls, mirror, pile.
+    const std::size_t n = rock.particles.size();
+    for (std::size_t k = 0; k < n; k += 2) {
+      dem::Body b = rock.particles.body[k];
+      b.x += (Vec3(0.0, 2.5e-3, -4e-3) - b.x).normalized() * 1.98 * b.R;
+      b.v = -b.v;
+      rock.particles.add(b);
+    }
+    dem::Body at_cut = rock.particles.body.front();
+    at_cut.x = {0.4e-3, at_cut.R * 0.999, -2e-3};
+    rock.particles.add(at_cut);
+    rock.mirrors.emplace_back();
+    dem::PileWall pile;
+    pile.pile.R = 0.2e-3;
+    pile.pile.cone_height = 0.3e-3;
+    pile.pile.z_tip = -2.2e-3;
+    pile.material = contact;
+    rock.piles.push_back(pile);
+    dem::add_forces(rock, 0.0);
+    for (int s = 0; s < 3000; ++s) {
+      if (rebuild_always) rock.list.invalidate();
+      dem::advance(rock, 2e-8, 2e-8, [](double) {});
+    }
+    return rock;
+  };
+  const dem::Rock once = run(false), always = run(true);
+  CHECK(always.list.n_builds() == 3001);
+  CHECK(once.list.n_builds() > 1); // it did go stale
+  CHECK(once.list.n_builds() < 300);
+  CHECK(once.losses.slip.value() > 0.0);
+  for (std::size_t i = 0; i < once.particles.size(); ++i) {
+    CHECK(once.particles.body[i].x == always.particles.body[i].x);
+    CHECK(once.particles.body[i].omega == always.particles.body[i].omega);
+  }
+}
