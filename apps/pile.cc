@@ -91,6 +91,10 @@ public:
     coupled.rock.list.invalidate();
     dem::add_forces(coupled.rock, 0.0);
     broken_before_ = coupled.rock.losses.broken;
+    n_bonds_ = coupled.rock.bonds.size();
+    for (const dem::Wall& w : coupled.rock.walls) n_bonds_ += w.bonds.size();
+    for (const dem::Mirror& m : coupled.rock.mirrors)
+      for (const dem::MirrorPair& pair : m.pairs) n_bonds_ += pair.bond.intact > 0.0;
   }
 
   void run()
@@ -130,6 +134,7 @@ public:
   double worst_energy_error() const { return worst_energy_error_; }
   const coupling::InterfaceBalance& worst_interface() const { return worst_interface_; }
   const Breakage& breakage() const { return breakage_; }
+  std::size_t n_bonds() const { return n_bonds_; } ///< of all kinds, when driving began
 
 private:
   double travelled() const { return -coupled_.rock.piles.front().pile.z_tip; }
@@ -161,6 +166,11 @@ private:
     r.kinetic = books.rock.kinetic;
     r.interface = coupled_.balance();
     r.book = books.rock;
+    r.book.pile_work -= start_.rock.pile_work;
+    r.book.plastic -= start_.rock.plastic;
+    r.book.residue -= start_.rock.residue;
+    r.book.slip -= start_.rock.slip;
+    r.book.damping -= start_.rock.damping;
 
     // What was stored at the start counts as put in: the tip meets the first grain after
     // some travel.
@@ -194,7 +204,7 @@ private:
   PileRecord last_;
   double time_ = 0.0, q_peak_ = 0.0, worst_energy_error_ = 0.0;
   coupling::InterfaceBalance worst_interface_;
-  std::size_t broken_before_ = 0;
+  std::size_t broken_before_ = 0, n_bonds_ = 0;
 };
 
 struct Share {
@@ -244,8 +254,10 @@ void write_summary(const std::filesystem::path& file, const Installation& run,
   number("largest q_c [Pa]", run.peak());
   number("tip force of the full pile [N]", r.F_tip);
   number("shaft force of the full pile [N]", r.F_shaft);
-  number("bonds [-]", count(coupled.rock.bonds.size()));
+  number("bonds [-]", count(run.n_bonds()));
   number("bonds broken [-]", count(r.broken));
+  number("bonds between grains [-]", count(coupled.rock.bonds.size()));
+  number("broken between grains [-]", count(broken.all));
   number("broken within 2 D_p of the axis [-]", count(broken.near));
   number("broken more than D_p above the shoulder [-]", count(broken.above));
   number("largest energy error [-]", run.worst_energy_error());
@@ -273,9 +285,10 @@ void print_summary(const std::filesystem::path& folder, const PileCase& c,
   std::cout << "\npile at " << 1e3 * r.depth << " mm (" << r.depth / c.diameter
             << " D_p): q_c " << 1e-6 * r.q_c << " MPa, largest " << 1e-6 * run.peak()
             << " MPa; tip " << r.F_tip << " N, shaft " << r.F_shaft << " N (full pile)\n"
-            << "bonds broken: " << r.broken << " of " << coupled.rock.bonds.size() << "; "
-            << percent(broken.near, broken.all) << " % within 2 D_p of the axis, "
-            << broken.above << " more than D_p above the shoulder when they broke\n"
+            << "bonds broken: " << r.broken << " of " << run.n_bonds() << ", " << broken.all
+            << " of them between grains: " << percent(broken.near, broken.all)
+            << " % within 2 D_p of the axis, " << broken.above
+            << " more than D_p above the shoulder when they broke\n"
             << "energy book closes to " << 100.0 * run.worst_energy_error()
             << " % of the input; interface balances to " << run.worst_interface().force
             << " (force), " << run.worst_interface().moment << " (moment), "

@@ -18,16 +18,16 @@ const std::vector<std::string> columns{
     "q_c [Pa]",
     "bonds broken [-]",
     "unbalanced ratio [-]",
-    "kinetic energy [J]",
+    "kinetic energy of the half model [J]",
     "interface force error [-]",
     "interface moment error [-]",
     "interface power error [-]",
     "energy error [-]",
-    "pile work [J]",
-    "elastic energy [J]",
-    "bond plasticity and damage [J]",
-    "friction [J]",
-    "damping [J]",
+    "pile work of the half model [J]",
+    "elastic energy of the half model [J]",
+    "bond plasticity and damage of the half model [J]",
+    "friction of the half model [J]",
+    "damping of the half model [J]",
 };
 
 } // namespace

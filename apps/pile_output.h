@@ -21,7 +21,8 @@ struct PileRecord {
   double kinetic = 0.0;    ///< of the grains, half model [J]
   coupling::InterfaceBalance interface;
   double energy_error = 0.0; ///< unexplained energy over the input [-]
-  dem::EnergyBook book;      ///< since the pile began to move, half model
+  /// Of the half model; pile work and losses since the pile began to move.
+  dem::EnergyBook book;
 };
 
 class PileOutput {

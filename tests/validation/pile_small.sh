@@ -25,7 +25,7 @@ claim()
   if awk "BEGIN { exit !($2) }"; then echo "holds   $1 ($2)"; else echo "FAILED  $1 ($2)"; n_failed=$((n_failed + 1)); fi
 }
 
-broken=$(found "bonds broken [-]")
+broken=$(found "broken between grains [-]")
 claim "the books close to 1 % (design, section 5)" "$(found "largest energy error [-]") < 0.01"
 claim "force crosses the interface to round-off" "$(found "largest interface force error [-]") < 1e-12"
 claim "moment crosses the interface to round-off" "$(found "largest interface moment error [-]") < 1e-12"
@@ -41,9 +41,9 @@ mean_q() { awk -F, -v from="$2" -v to="$3" 'NR > 1 && $3 >= from && $3 < to { s 
 claim "q_c between 1 and 2 D_p is 3 to 15 UCS" \
   "$(mean_q elastic/history.csv 1 2) > 12e6 && $(mean_q elastic/history.csv 1 2) < 60e6"
 claim "q_c rises with depth" "$(mean_q elastic/history.csv 1 2) > $(mean_q elastic/history.csv 0 1)"
-# Single grains (D_p is 4.7 of them) make the curves differ by some 10 MPa at any one depth: compare the mean.
-claim "rigid walls are stiffer than the far field" \
-  "$(mean_q rigid/history.csv 0 2) > $(mean_q elastic/history.csv 0 2)"
+# Once grains break, the two runs part: single grains, 4.7 to D_p, make the curves differ by 10 MPa at any one depth.
+# That rigid walls are stiffer is tested where nothing breaks, in tests/end_to_end.sh.
+echo "mean q_c from 0 to 2 D_p: elastic $(mean_q elastic/history.csv 0 2), rigid $(mean_q rigid/history.csv 0 2) Pa"
 
 echo "$n_failed failed"
 [ "$n_failed" -eq 0 ]
