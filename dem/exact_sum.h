@@ -23,8 +23,10 @@ public:
     const double scaled = term * scale;
     if (!(std::abs(scaled) < 0x1p62))
       throw NumericalError(
-          "a term of a global sum is out of range or undefined: " + std::to_string(term) +
-          " (largest " + std::to_string(0x1p62 / scale) + ")");
+          "a force, power or energy is out of the range of the exact sums: " +
+          std::to_string(term) + ", at most " + std::to_string(0x1p62 / scale) +
+          " (SI): the run is unstable, or its grains are far larger than "
+          "millimetres");
     sum_ += static_cast<std::int64_t>(std::llrint(scaled));
   }
   ExactSum& operator+=(const ExactSum& other)

@@ -261,23 +261,33 @@ void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell
   }
 }
 
+ContactReading read_contact(const Pair& pair, const Vec3& f_s, const Particles& p,
+                            const PeriodicCell& cell, const LinearMaterial& material)
+{
+  const Body &i = p.body[pair.i], &j = p.body[pair.j];
+  const double L = i.R + j.R;
+  const double gap = (j.x + cell.offset(pair.shift) - i.x).norm() - L;
+  const double closed = material.g_a * 0.5 * (i.S + j.S) - gap;
+  if (closed <= 0.0) return {0.0, 0.0};
+  const auto k = linear_stiffness(material, std::min(i.R, j.R), 1.0 / L);
+  return {k.k_n * closed, 0.5 * (k.k_n * closed * closed + f_s.squaredNorm() / k.k_s)};
+}
+
+Vec3 shear_beside(const Bonds& bonds, std::size_t b)
+{
+  return vec3(lane(bonds.blocks[b / n_lanes].f_s, static_cast<int>(b % n_lanes)));
+}
+
 PairEnergy pair_energy(const PairMaterials& material, const PeriodicCell& cell,
                        const Particles& p, const Bonds& bonds, const Contacts& contacts)
 {
   PairEnergy e;
   const auto contact_energy = [&](const Pair& pair, const Vec3& f_s) {
-    const Body &i = p.body[pair.i], &j = p.body[pair.j];
-    const double L = i.R + j.R;
-    const double gap = (j.x + cell.offset(pair.shift) - i.x).norm() - L;
-    const double closed = material.contact.g_a * 0.5 * (i.S + j.S) - gap;
-    if (closed <= 0.0) return 0.0;
-    const auto k = linear_stiffness(material.contact, std::min(i.R, j.R), 1.0 / L);
-    return 0.5 * (k.k_n * closed * closed + f_s.squaredNorm() / k.k_s);
+    return read_contact(pair, f_s, p, cell, material.contact).energy;
   };
   for (std::size_t b = 0; b < bonds.size(); ++b) {
     e.bonds += read_bond(bonds, b, p, cell, material.bond).energy;
-    e.contacts += contact_energy(bonds.pairs[b], vec3(lane(bonds.blocks[b / n_lanes].f_s,
-                                                           static_cast<int>(b % n_lanes))));
+    e.contacts += contact_energy(bonds.pairs[b], shear_beside(bonds, b));
   }
   for (std::size_t c = 0; c < contacts.pairs.size(); ++c)
     e.contacts += contact_energy(contacts.pairs[c], contacts.shear[c].f_s);

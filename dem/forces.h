@@ -30,6 +30,19 @@ void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, do
 void add_contact_forces(const LinearMaterial& contact, const PeriodicCell& cell, double dt,
                         Particles& p, Contacts& contacts, PairLosses& losses);
 
+/// One far-field contact as books and output see it.
+struct ContactReading {
+  double f_n;    ///< compression [N]; 0 when open
+  double energy; ///< stored in both springs [J]
+};
+
+/// @param f_s shear force of the contact [N]
+ContactReading read_contact(const Pair& pair, const Vec3& f_s, const Particles& p,
+                            const PeriodicCell& cell, const LinearMaterial& material);
+
+/// Shear force of the contact beside a bond [N].
+Vec3 shear_beside(const Bonds& bonds, std::size_t b);
+
 /// Elastic energy [J] of bonds, and of contacts with those beside the bonds.
 struct PairEnergy {
   double bonds = 0.0, contacts = 0.0;

@@ -112,13 +112,7 @@ double unbalanced_ratio(double mean_resultant, const Particles& p,
   // Each pair force acts on two particles.
   ForceSum sum;
   const auto contact_force = [&](const Pair& q) {
-    const Body &i = p.body[q.i], &j = p.body[q.j];
-    const double L = i.R + j.R, gap = (j.x + cell.offset(q.shift) - i.x).norm() - L;
-    const double closed = material.contact.g_a * 0.5 * (i.S + j.S) - gap;
-    return closed > 0.0
-               ? linear_stiffness(material.contact, std::min(i.R, j.R), 1.0 / L).k_n *
-                     closed
-               : 0.0;
+    return read_contact(q, Vec3::Zero(), p, cell, material.contact).f_n;
   };
   for (std::size_t b = 0; b < bonds.size(); ++b) {
     const BondReading r = read_bond(bonds, b, p, cell, material.bond);
