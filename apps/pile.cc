@@ -207,6 +207,14 @@ private:
   std::size_t broken_before_ = 0, n_bonds_ = 0;
 };
 
+/// Grains that flew over the rim of the interface; they are followed, but nothing catches them.
+std::size_t count_debris(const dem::Rock& rock, double lip)
+{
+  std::size_t n = 0;
+  for (const dem::Body& b : rock.particles.body) n += b.x.z() > lip;
+  return n;
+}
+
 struct Share {
   const char* name;
   double seconds;
@@ -237,8 +245,8 @@ std::string shares(const CoupledRock& coupled, double seconds)
   return out.str();
 }
 
-void write_summary(const std::filesystem::path& file, const Installation& run,
-                   const CoupledRock& coupled, double seconds)
+void write_summary(const std::filesystem::path& file, const PileCase& c,
+                   const Installation& run, const CoupledRock& coupled, double seconds)
 {
   const PileRecord& r = run.last();
   const Breakage& broken = run.breakage();
@@ -260,6 +268,7 @@ void write_summary(const std::filesystem::path& file, const Installation& run,
   number("broken between grains [-]", count(broken.all));
   number("broken within 2 D_p of the axis [-]", count(broken.near));
   number("broken more than D_p above the shoulder [-]", count(broken.above));
+  number("grains above the lip [-]", count(count_debris(coupled.rock, c.rock.lip)));
   number("largest energy error [-]", run.worst_energy_error());
   number("largest interface force error [-]", run.worst_interface().force);
   number("largest interface moment error [-]", run.worst_interface().moment);
@@ -288,7 +297,8 @@ void print_summary(const std::filesystem::path& folder, const PileCase& c,
             << "bonds broken: " << r.broken << " of " << run.n_bonds() << ", " << broken.all
             << " of them between grains: " << percent(broken.near, broken.all)
             << " % within 2 D_p of the axis, " << broken.above
-            << " more than D_p above the shoulder when they broke\n"
+            << " more than D_p above the shoulder when they broke; "
+            << count_debris(coupled.rock, c.rock.lip) << " grains flew above the lip\n"
             << "energy book closes to " << 100.0 * run.worst_energy_error()
             << " % of the input; interface balances to " << run.worst_interface().force
             << " (force), " << run.worst_interface().moment << " (moment), "
@@ -339,7 +349,7 @@ int run_pile(const JobOptions& options)
   run.run();
 
   const double seconds = dem::wall_clock() - start;
-  write_summary(folder.path() / "summary.json", run, coupled, seconds);
+  write_summary(folder.path() / "summary.json", c, run, coupled, seconds);
   print_summary(folder.path(), c, run, coupled, seconds);
   return 0;
 }
