@@ -76,7 +76,6 @@ CoupledRock::CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarF
   dem::add_forces(rock, 0.0); // nothing has moved yet: histories stay
   dt = dt_before = dem::stable_time_step(rock, safety);
   lower_time_step();
-  for (const dem::Body& b : rock.particles.body) x_0.push_back(b.x);
 }
 
 void CoupledRock::lower_time_step()
@@ -122,7 +121,7 @@ double CoupledRock::unexplained(const Books& now, const Books& start)
 
 namespace {
 
-/// Relax with the walls as `model` says until `reached()` holds.
+/// Relax with the walls as `model` says until the unbalanced ratio is below `ratio`.
 void relax(CoupledRock& coupled, const char* stage, double ratio, std::size_t most_steps)
 {
   Progress progress(stage);
@@ -182,7 +181,6 @@ void equilibrate(CoupledRock& coupled, double ratio, std::size_t most_steps)
     for (dem::Vec3& v : wall.v) v.setZero();
     relax(coupled, "settling with the far field", ratio, most_steps);
   }
-  coupled.x_0.clear();
   for (const dem::Body& b : coupled.rock.particles.body) coupled.x_0.push_back(b.x);
 }
 

@@ -21,7 +21,7 @@ struct CoupledRock {
   double safety = 0.7;
   std::size_t n_steps = 0;
   double time = 0.0;          ///< since the specimen was put in its walls [s]
-  std::vector<dem::Vec3> x_0; ///< grains in equilibrium, before anything is driven [m]
+  std::vector<dem::Vec3> x_0; ///< grains in equilibrium, set by equilibrate() [m]
 
   CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarField far_field,
               coupling::Interface interface);

@@ -90,7 +90,6 @@ public:
     coupled.rock.piles.push_back(pile);
     coupled.rock.list.invalidate();
     dem::add_forces(coupled.rock, 0.0);
-    broken_before_ = coupled.rock.losses.broken;
     n_bonds_ = coupled.rock.bonds.size();
     for (const dem::Wall& w : coupled.rock.walls) n_bonds_ += w.bonds.size();
     for (const dem::Mirror& m : coupled.rock.mirrors)
@@ -161,7 +160,7 @@ private:
     r.F_shaft = half_to_full * force_.shaft / static_cast<double>(force_.n);
     r.q_c = r.F_tip / area;
     breakage_.update(coupled_.rock);
-    r.broken = coupled_.rock.losses.broken - broken_before_;
+    r.broken = coupled_.rock.losses.broken; // none while settling: equilibrate() throws
     r.unbalanced = coupled_.unbalanced();
     r.kinetic = books.rock.kinetic;
     r.interface = coupled_.balance();
@@ -204,7 +203,7 @@ private:
   PileRecord last_;
   double time_ = 0.0, q_peak_ = 0.0, worst_energy_error_ = 0.0;
   coupling::InterfaceBalance worst_interface_;
-  std::size_t broken_before_ = 0, n_bonds_ = 0;
+  std::size_t n_bonds_ = 0;
 };
 
 /// Grains that flew over the rim of the interface; they are followed, but nothing catches them.

@@ -52,10 +52,6 @@ Vec3 add_plane_forces(const LinearMaterial& material, const Plane& plane, double
       throw NumericalError("particle " + std::to_string(p.id[c.particle]) +
                            " passed through a plane wall");
     const Touch touch = plane.touch(body);
-    if (touch.gap >= material.g_a * body.S && c.f_s.isZero(0.0)) {
-      c.energy = 0.0;
-      continue;
-    }
     sum.add(-add_wall_contact(material, touch, dt, body, p.load[c.particle], c, losses));
   }
   return sum.value();
@@ -69,10 +65,6 @@ PileLoad add_pile_forces(const LinearMaterial& material, const Pile& pile, doubl
     Body& body = p.body[c.particle];
     const auto [touch, part] =
         naming_particle(p.id[c.particle], [&] { return pile.meet(body); });
-    if (touch.gap >= material.g_a * body.S && c.f_s.isZero(0.0)) {
-      c.energy = 0.0;
-      continue;
-    }
     const Vec3 f =
         add_wall_contact(material, touch, dt, body, p.load[c.particle], c, losses);
     (part == Pile::Part::cone ? load.cone : load.shaft).add(-f);

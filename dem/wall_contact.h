@@ -36,6 +36,11 @@ inline Vec3 add_wall_contact(const LinearMaterial& material, const Touch& touch,
                              Body& body, Load& load, WallContact& history,
                              PairLosses& losses)
 {
+  const double g_a = material.g_a * body.S;
+  if (touch.gap >= g_a && history.f_s.isZero(0.0)) { // apart, and nothing left to lose
+    history.energy = 0.0;
+    return Vec3::Zero();
+  }
   const Vec3 arm = touch.point - body.x;
   const Vec3 v_rel = touch.v - body.v - body.omega.cross(arm);
   const Vec3 du_s = dt * (v_rel - v_rel.dot(touch.n) * touch.n);
@@ -44,7 +49,6 @@ inline Vec3 add_wall_contact(const LinearMaterial& material, const Touch& touch,
   if (length > 0.0) f_old *= history.f_s.norm() / length;
 
   const auto k = linear_stiffness(material, body.R, 1.0 / body.R);
-  const double g_a = material.g_a * body.S;
   const auto c = linear_contact(material, k, touch.gap, g_a, triple(du_s), triple(f_old));
   if (c.slip_loss != 0.0) losses.slip.add(c.slip_loss);
   history.f_s = vec3(c.f_s);

@@ -1,6 +1,7 @@
 #include "fem/boundary_ids.h"
 #include "fem/far_field.h"
 #include "fem/far_field_mesh.h"
+#include "tests/small_chamber.h"
 
 #include <Eigen/Geometry>
 
@@ -21,21 +22,6 @@ using namespace mergel::fem;
 
 namespace {
 
-FarFieldSpec valid()
-{
-  FarFieldSpec s;
-  s.chamber_diameter = 25e-3;
-  s.chamber_height = 40e-3;
-  s.region_diameter = 10e-3;
-  s.region_height = 12e-3;
-  s.cell_size = 2e-3;
-  s.E = 1.1e9;
-  s.nu = 0.14;
-  s.rho = 1227.0;
-  s.K0 = 0.163;
-  return s;
-}
-
 std::string complaint(FarFieldSpec s, void (*spoil)(FarFieldSpec&))
 {
   spoil(s);
@@ -51,37 +37,42 @@ std::string complaint(FarFieldSpec s, void (*spoil)(FarFieldSpec&))
 
 TEST_CASE("Each wrong entry of the far field is named with its value", "[unit][fem]")
 {
-  CHECK_NOTHROW(valid().check());
+  CHECK_NOTHROW(small_chamber().check());
   using Catch::Contains;
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.nu = 0.6; }),
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.nu = 0.6; }),
              Contains("Poisson's ratio = 0.6") && Contains("-1 < nu < 0.5"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.nu = FarFieldSpec::unset; }),
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.nu = FarFieldSpec::unset; }),
              Contains("nan"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.chamber_diameter = 10e-3; }),
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.chamber_diameter = 10e-3; }),
              Contains("chamber diameter = 0.01") && Contains("exceed the region"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.chamber_height = 1e-3; }),
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.chamber_height = 1e-3; }),
              Contains("chamber height"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.region_diameter = 0.0; }),
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.region_diameter = 0.0; }),
              Contains("region diameter"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.region_height = -1.0; }),
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.region_height = -1.0; }),
              Contains("region height"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.cell_size = 2.0; }),
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.cell_size = 2.0; }),
              Contains("cell size = 2"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.cell_size = 1e-6; }),
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.cell_size = 1e-6; }),
              Contains("number of cells"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.growth = 0.9; }), Contains("growth = 0.9"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.E = 0.0; }), Contains("Young's modulus"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.rho = -1.0; }),
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.growth = 0.9; }),
+             Contains("growth = 0.9"));
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.E = 0.0; }),
+             Contains("Young's modulus"));
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.rho = -1.0; }),
              Contains("bulk density = -1"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.K0 = -0.1; }), Contains("K0 = -0.1"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.gravity = -9.81; }), Contains("gravity"));
-  CHECK_THAT(complaint(valid(), [](auto& s) { s.damping = 1.0; }), Contains("damping = 1"));
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.K0 = -0.1; }),
+             Contains("K0 = -0.1"));
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.gravity = -9.81; }),
+             Contains("gravity"));
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.damping = 1.0; }),
+             Contains("damping = 1"));
 }
 
 TEST_CASE("The interface is one surface, facing the region, on its radius and floor",
           "[unit][fem]")
 {
-  const FarField field(valid());
+  const FarField field(small_chamber());
   const InterfaceMesh& mesh = field.interface();
   const double R = 5e-3, H = 12e-3, close = 1e-15;
   REQUIRE(mesh.boundary.size() == mesh.triangles.size());
@@ -121,7 +112,7 @@ TEST_CASE("The interface is one surface, facing the region, on its radius and fl
 
 TEST_CASE("The interface is its own mirror image in x, nodes and diagonals", "[unit][fem]")
 {
-  FarFieldSpec spec = valid();
+  FarFieldSpec spec = small_chamber();
   spec.cell_size = 1.2e-3;
   const FarField field(spec);
   const InterfaceMesh& mesh = field.interface();
@@ -192,7 +183,7 @@ TEST_CASE("The sizes of the small pile give about 950 cells", "[unit][fem]")
 TEST_CASE("Far-field output appears complete under its name and nowhere else",
           "[unit][fem]")
 {
-  const FarField field(valid());
+  const FarField field(small_chamber());
   const auto folder =
       std::filesystem::temp_directory_path() / ("mergel_fem_" + std::to_string(getpid()));
   std::filesystem::create_directory(folder);
@@ -210,7 +201,7 @@ TEST_CASE("Far-field output appears complete under its name and nowhere else",
 
 TEST_CASE("Wall stiffness on the interface lowers the stable time step", "[unit][fem]")
 {
-  const FarField field(valid());
+  const FarField field(small_chamber());
   const std::size_t n = field.interface().x.size();
   const double alone = field.stable_time_step();
   CHECK(field.stable_time_step(std::vector<double>(n, 0.0)) == Approx(alone));

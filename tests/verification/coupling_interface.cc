@@ -4,6 +4,7 @@
 #include "dem/balance.h"
 #include "dem/random.h"
 #include "dem/step.h"
+#include "tests/small_chamber.h"
 
 #include <catch2/catch.hpp>
 
@@ -14,18 +15,10 @@ namespace {
 
 fem::FarFieldSpec small_far_field()
 {
-  fem::FarFieldSpec s;
-  s.region_diameter = 10e-3;
+  fem::FarFieldSpec s = small_chamber();
   s.region_height = 8e-3;
-  s.chamber_diameter = 20e-3;
-  s.chamber_height = 20e-3;
-  s.cell_size = 2e-3;
-  s.E = 1.1e9;
-  s.nu = 0.14;
-  s.rho = 1227.0;
-  s.K0 = 0.163;
-  s.gravity = 0.0;
-  s.damping = 0.0;
+  s.chamber_diameter = s.chamber_height = 20e-3;
+  s.gravity = s.damping = 0.0;
   return s;
 }
 

@@ -4,6 +4,7 @@
 #include "fem/far_field.h"
 #include "fem/far_field_mesh.h"
 #include "fem/linear_solver.h"
+#include "tests/small_chamber.h"
 
 #include <Eigen/Geometry>
 
@@ -20,22 +21,6 @@ namespace {
 
 using std::numbers::pi;
 
-FarFieldSpec small_pile()
-{
-  FarFieldSpec s;
-  s.chamber_diameter = 25e-3;
-  s.chamber_height = 40e-3;
-  s.region_diameter = 10e-3;
-  s.region_height = 12e-3;
-  s.cell_size = 2e-3;
-  s.growth = 1.4;
-  s.E = 1.1e9;
-  s.nu = 0.14;
-  s.rho = 1227.0;
-  s.K0 = 0.163;
-  return s;
-}
-
 /// Area of half a regular polygon of 2 n sides in a circle: what a cylinder of n segments
 /// covers.
 double half_polygon(double R, double n)
@@ -48,7 +33,7 @@ double half_polygon(double R, double n)
 TEST_CASE("The far field's initial stress is in equilibrium with the region's traction",
           "[verification][fem]")
 {
-  FarField field(small_pile());
+  FarField field(small_chamber());
   const auto f = field.initial_interface_forces();
 
   // The region's weight rests on its floor.
@@ -74,7 +59,7 @@ TEST_CASE(
     "Pressure on the interface: damped steps end at the static solution, books closed",
     "[verification][fem]")
 {
-  FarFieldSpec spec = small_pile();
+  FarFieldSpec spec = small_chamber();
   spec.chamber_height = 30e-3;
   FarField field(spec);
   const InterfaceMesh& mesh = field.interface();
