@@ -38,6 +38,9 @@ struct Key {
       parse = {};
 
   std::string section = {};
+  std::string choice = {};              ///< the key exists only where this other key of its
+  std::vector<std::string> values = {}; ///< section has one of these values; "" for always
+  bool is_active = true;                ///< whether it does, in the case as read
   std::string value = {}, resolved = {}; ///< as given, and for write_resolved()
   int line = 0;                          ///< in the case file; 0 if not there
   bool is_override = false;              ///< from --set
@@ -65,16 +68,28 @@ struct CaseFile::Impl {
   std::vector<std::string> sections; ///< in the order of declaration
   std::vector<Key> keys;
   std::string open_section;
+  std::string open_choice;              ///< of the open condition
+  std::vector<std::string> open_values; ///< of the open condition
   bool is_read = false;
   std::string file_name;
   std::map<std::string, int> section_lines;
 
+  /// Every key of this name: more than one where conditions exclude each other.
+  std::vector<Key*> find_all(const std::string& section, const std::string& name)
+  {
+    std::vector<Key*> found;
+    for (Key& k : keys)
+      if (k.section == section && k.name == name) found.push_back(&k);
+    return found;
+  }
+
+  /// The one that exists in the case as read, else the first; null if there is none.
   Key* find(const std::string& section, const std::string& name)
   {
-    const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& k) {
-      return k.section == section && k.name == name;
-    });
-    return found == keys.end() ? nullptr : &*found;
+    const auto found = find_all(section, name);
+    for (Key* k : found)
+      if (k->is_active) return k;
+    return found.empty() ? nullptr : found.front();
   }
 
   const Key& at(const std::string& section, const std::string& name)
@@ -89,10 +104,36 @@ struct CaseFile::Impl {
     if (open_section.empty())
       throw std::logic_error("CaseFile: " + key.name + " is declared outside a section");
     key.section = open_section;
-    if (find(key.section, key.name))
-      throw std::logic_error("CaseFile: " + key.section + "/" + key.name +
-                             " is declared twice");
+    key.choice = open_choice;
+    key.values = open_values;
+    for (const Key* other : find_all(key.section, key.name))
+      if (other->choice.empty() || other->choice != key.choice ||
+          std::find_first_of(other->values.begin(), other->values.end(), key.values.begin(),
+                             key.values.end()) != other->values.end())
+        throw std::logic_error("CaseFile: " + key.section + "/" + key.name +
+                               " is declared twice");
     keys.push_back(std::move(key));
+  }
+
+  /// Whether the key exists, its choice being read already.
+  bool exists(const Key& key)
+  {
+    if (key.choice.empty()) return true;
+    const Key& choice = *find(key.section, key.choice);
+    return choice.is_active && std::find(key.values.begin(), key.values.end(),
+                                         choice.resolved) != key.values.end();
+  }
+
+  /// A key was given that does not exist in this case: say where it would.
+  [[noreturn]] void refuse_inactive(const Key& key)
+  {
+    std::vector<std::string> values;
+    for (const Key* k : find_all(key.section, key.name))
+      values.insert(values.end(), k->values.begin(), k->values.end());
+    const Key& choice = *find(key.section, key.choice);
+    throw InputError(place(key) + " = " + key.value + ": is a key of `" + key.choice +
+                     "` = " + joined(values, " | ") + "; here it is " + choice.resolved +
+                     ". Leave the key out, or change `" + key.choice + "`.");
   }
 
   std::string place(const Key& key) const
@@ -151,12 +192,12 @@ struct CaseFile::Impl {
         refuse_key(file_name + ":" + std::to_string(entry.line) + ": " + entry.section +
                        "/" + entry.key,
                    entry);
-      key->line = entry.line;
+      for (Key* same : find_all(entry.section, entry.key)) same->line = entry.line;
     }
   }
 
-  /// The same for one --set; returns its key.
-  Key& match_override(const CaseEntry& entry)
+  /// The same for one --set.
+  void match_override(const CaseEntry& entry)
   {
     const std::string place = "--set " + entry.section + "/" + entry.key;
     if (std::find(sections.begin(), sections.end(), entry.section) == sections.end())
@@ -166,9 +207,10 @@ struct CaseFile::Impl {
     if (key->is_override)
       throw InputError(place + " = " + entry.value + ": already given by another --set (" +
                        key->value + "). Keep one of the two.");
-    key->is_override = true;
-    key->value = entry.value;
-    return *key;
+    for (Key* same : find_all(entry.section, entry.key)) {
+      same->is_override = true;
+      same->value = entry.value;
+    }
   }
 };
 
@@ -189,6 +231,25 @@ CaseFile::Section CaseFile::section(const std::string& name)
     sections.push_back(name);
   impl_->open_section = name;
   return Section(*this);
+}
+
+CaseFile::Condition::~Condition()
+{
+  file_.impl_->open_choice.clear();
+  file_.impl_->open_values.clear();
+}
+
+CaseFile::Condition CaseFile::only_if(const std::string& choice,
+                                      const std::vector<std::string>& values)
+{
+  if (!impl_->open_choice.empty() ||
+      impl_->find_all(impl_->open_section, choice).size() != 1)
+    throw std::logic_error(
+        "CaseFile: a condition on " + choice +
+        " needs one such key in the open section, and no other condition");
+  impl_->open_choice = choice;
+  impl_->open_values = values;
+  return Condition(*this);
 }
 
 void CaseFile::quantity(const std::string& key, double& target, const std::string& si_unit,
@@ -366,6 +427,7 @@ void CaseFile::read(const std::filesystem::path& path,
   for (Key& key : impl_->keys) {
     key.line = 0;
     key.is_override = false;
+    key.is_active = true;
   }
 
   const std::string text = read_case_text(path);
@@ -377,6 +439,7 @@ void CaseFile::read(const std::filesystem::path& path,
   // keys know more about units and ranges, and say it in one line.
   dealii::ParameterHandler prm;
   for (const Key& key : impl_->keys) {
+    if (&key != impl_->find_all(key.section, key.name).front()) continue;
     prm.enter_subsection(key.section);
     prm.declare_entry(key.name, key.standard, dealii::Patterns::Anything(), key.sentence);
     prm.leave_subsection();
@@ -393,7 +456,7 @@ void CaseFile::read(const std::filesystem::path& path,
   }
   for (Key& key : impl_->keys) {
     prm.enter_subsection(key.section);
-    key.value = trimmed(prm.get(key.name));
+    key.value = key.line > 0 ? std::string(trimmed(prm.get(key.name))) : key.standard;
     prm.leave_subsection();
   }
 
@@ -404,6 +467,8 @@ void CaseFile::read(const std::filesystem::path& path,
   const auto case_folder = std::filesystem::absolute(path).parent_path();
   for (Key& key : impl_->keys) {
     const bool is_given = key.is_override || key.line > 0;
+    key.is_active = impl_->exists(key);
+    if (!key.is_active) continue;
     if (key.is_required && !is_given) {
       const auto line = impl_->section_lines.find(key.section);
       throw InputError(
@@ -422,6 +487,9 @@ void CaseFile::read(const std::filesystem::path& path,
       throw InputError(impl_->place(key) + " = " + key.value + ": " + message);
     }
   }
+  for (const Key& key : impl_->keys)
+    if ((key.is_override || key.line > 0) && !impl_->find(key.section, key.name)->is_active)
+      impl_->refuse_inactive(key);
   impl_->is_read = true;
 }
 
@@ -440,7 +508,7 @@ void CaseFile::refuse(const std::string& section, const std::string& key,
 bool CaseFile::is_given(const std::string& section, const std::string& key) const
 {
   const Key& k = impl_->at(section, key);
-  return k.is_override || k.line > 0;
+  return k.is_active && (k.is_override || k.line > 0);
 }
 
 void CaseFile::write_resolved(const std::filesystem::path& path) const
@@ -452,7 +520,7 @@ void CaseFile::write_resolved(const std::filesystem::path& path) const
   for (const std::string& section : impl_->sections) {
     text += "\nsubsection " + section + "\n";
     for (const Key& key : impl_->keys)
-      if (key.section == section)
+      if (key.section == section && key.is_active)
         text += wrapped(key.sentence + " [" + key.allowed + "]", "  # ", columns) +
                 "  set " + key.name + (key.resolved.empty() ? " =" : " = ") + key.resolved +
                 "\n";
@@ -496,7 +564,11 @@ void CaseFile::help(std::ostream& out) const
       row(key.name, key.unit,
           key.is_required ? "required" : (key.standard.empty() ? "none" : key.standard),
           key.allowed);
-      out << wrapped(key.sentence, "      ", columns);
+      const std::string condition =
+          key.choice.empty()
+              ? ""
+              : "Where " + key.choice + " = " + joined(key.values, " | ") + ": ";
+      out << wrapped(condition + key.sentence, "      ", columns);
     }
   }
 }

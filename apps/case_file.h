@@ -60,6 +60,24 @@ public:
   /// Open a section, new or declared before; one at a time.
   Section section(const std::string& name);
 
+  /// While it lives, the keys declared exist only where a choice of the same section has one
+  /// of these values; anywhere else they are refused. Two conditions that exclude each other
+  /// may declare keys of the same name.
+  class [[nodiscard]] Condition {
+  public:
+    ~Condition();
+    Condition(const Condition&) = delete;
+    Condition& operator=(const Condition&) = delete;
+
+  private:
+    friend CaseFile;
+    explicit Condition(CaseFile& file) : file_(file) {}
+    CaseFile& file_;
+  };
+
+  /// @param choice a choice declared before in the open section; @param values some of it
+  Condition only_if(const std::string& choice, const std::vector<std::string>& values);
+
   /// A number with a unit. `target` is in `si_unit`, a coherent SI unit ("Pa", "m", "rad"),
   /// and so are the bounds of `range`; help and resolved case use `shown_unit` ("mm").
   void quantity(const std::string& key, double& target, const std::string& si_unit,
@@ -140,7 +158,8 @@ public:
   [[noreturn]] void refuse(const std::string& section, const std::string& key,
                            const std::string& message) const;
 
-  /// Whether the user gave this key (file or --set). @pre read() was called
+  /// Whether the user gave this key (file or --set), and its condition holds.
+  /// @pre read() was called
   bool is_given(const std::string& section, const std::string& key) const;
 
   /// Write the complete case as it was read, defaults included: a case file that sets every

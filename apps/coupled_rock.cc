@@ -28,7 +28,7 @@ std::vector<double> interface_springs(const dem::Rock& rock,
     const double R = radius(b.particle);
     if (b.state.intact > 0.0)
       add(b.anchor.triangle, b.anchor.weight,
-          dem::bond_shape(rock.material.bond, R, 1.0 / R).k_n);
+          dem::bond_shape(dem::section(rock.material.bond), R, 1.0 / R).k_n);
   }
   for (std::size_t k = 0; k < wall.contacts.size(); ++k) {
     const double R = radius(wall.contacts[k].particle);

@@ -48,44 +48,6 @@ void declare_specimen(CaseFile& file, RockCase& c)
             "A specimen made before by mergel sample; empty: make it for this run.");
 }
 
-void declare_materials(CaseFile& file, RockCase& c)
-{
-  {
-    const auto section = file.section("Bond");
-    dem::BondMaterial& b = c.material.bond;
-    b.E = b.kappa = b.sigma_t = b.sigma_c = b.C = b.u_c = b.theta_c = unset;
-    file.quantity("effective modulus", b.E, "Pa", positive, "Modulus of the bond, Eq. 4.",
-                  "GPa");
-    file.number("stiffness ratio", b.kappa, positive, "Normal to shear stiffness, Eq. 4.");
-    file.quantity("tensile strength", b.sigma_t, "Pa", positive, "sigma_t, Eq. 6.", "MPa");
-    file.quantity("compressive strength", b.sigma_c, "Pa", positive, "sigma_c, Eq. 6.",
-                  "MPa");
-    file.quantity("shear strength", b.C, "Pa", positive, "C, Eq. 6.", "MPa");
-    file.quantity("softening displacement", b.u_c, "m", positive,
-                  "u_c at S = 1, Eq. 3; scales with S, Eq. 8.", "mm");
-    file.quantity("softening rotation", b.theta_c, "rad", positive, "theta_c, Eq. 3.");
-    file.number("radius ratio", b.lambda_b, above_to(0.0, 1.0),
-                "Bond radius over the smaller grain radius.");
-    file.choice("bending flow", b.flow,
-                std::vector<std::pair<std::string, dem::BendingFlow>>{
-                    {"conjugate", dem::BendingFlow::conjugate},
-                    {"published", dem::BendingFlow::published}},
-                "Plastic rotation as the gradient in M, or as Eq. 7 prints it.");
-    file.number("broken at damage", b.D_broken, inside(0.0, 1.0),
-                "Damage at which a bond is gone for good.");
-  }
-  const auto section = file.section("Contact");
-  dem::LinearMaterial& k = c.material.contact;
-  k.E = k.kappa = k.mu = k.g_a = unset;
-  file.quantity("effective modulus", k.E, "Pa", positive,
-                "Modulus of the far-field contact between grains.", "GPa");
-  file.number("stiffness ratio", k.kappa, positive, "Normal to shear stiffness.");
-  file.number("friction", k.mu, non_negative, "Friction coefficient between grains.");
-  file.quantity("activation gap", k.g_a, "m", non_negative,
-                "Gap at which grains begin to act, g_a at S = 1; scales with S, Eq. 8.",
-                "mm");
-}
-
 void declare_far_field(CaseFile& file, RockCase& c)
 {
   const auto section = file.section("Far field");
@@ -148,7 +110,8 @@ void declare_motion(CaseFile& file, RockCase& c)
 void declare(CaseFile& file, RockCase& c)
 {
   declare_specimen(file, c);
-  declare_materials(file, c);
+  declare(file, c.bond);
+  declare(file, c.material.contact);
   declare_far_field(file, c);
   declare_motion(file, c);
 }
@@ -157,6 +120,7 @@ void complete(const CaseFile& file, RockCase& c)
 {
   dem::SpecimenSpec& s = c.specimen;
   fem::FarFieldSpec& f = c.far_field;
+  c.material.bond = c.bond.chosen();
   if (s.d_max < s.d_min)
     file.refuse("Specimen", "largest diameter", "must not be below `smallest diameter`");
   if (s.scale.r_outer <= s.scale.r_inner)
@@ -207,11 +171,11 @@ void complete(const CaseFile& file, RockCase& c)
         "ratio");
   // Shells ten times the volume of their spheres: a slip of units, no rock.
   if (dem::effective_solid_fraction(s) > 10.0 * (1.0 - s.porosity))
-    file.refuse(
-        "Contact", "activation gap",
-        "with it the grains reach ten times their volume: lower it, or raise `Specimen/smallest "
-        "diameter`, " +
-            mm(s.d_min));
+    file.refuse("Contact", "activation gap",
+                "with it the grains reach ten times their volume: lower it, or raise "
+                "`Specimen/smallest "
+                "diameter`, " +
+                    mm(s.d_min));
   try {
     s.check();
   } catch (const InputError& e) {

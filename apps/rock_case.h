@@ -2,7 +2,7 @@
 /// field, motion.
 #pragma once
 
-#include "apps/case_file.h"
+#include "apps/material_keys.h"
 #include "dem/io/sample_file.h"
 #include "dem/step.h"
 #include "fem/far_field.h"
@@ -10,8 +10,6 @@
 #include <optional>
 
 namespace mergel::apps {
-
-inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
 /// What stands around the DEM region.
 enum class FarFieldModel {
@@ -26,7 +24,8 @@ struct RockCase {
   dem::Symmetry symmetry = dem::Symmetry::mirror;
   std::filesystem::path sample; ///< empty: make the specimen
 
-  dem::PairMaterials material;
+  BondKeys bond;
+  dem::PairMaterials material; ///< its bond is set by complete()
 
   // Far field
   FarFieldModel model = FarFieldModel::elastic;

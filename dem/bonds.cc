@@ -31,19 +31,19 @@ Bonds make_bonds(Particles& p, const PeriodicCell& cell, std::vector<Pair> pairs
 }
 
 BondReading read_bond(const Bonds& bonds, std::size_t b, const Particles& p,
-                      const PeriodicCell& cell, const BondMaterial& material)
+                      const PeriodicCell& cell, const BondLaw& law)
 {
   const BondBlock& block = bonds.blocks[b / n_lanes];
   const auto l = static_cast<int>(b % n_lanes);
   const Pair& pair = bonds.pairs[b];
   const double R_i = p.body[pair.i].R, R_j = p.body[pair.j].R;
   const double intact = block.intact[l];
-  const auto shape = bond_shape(material, std::min(R_i, R_j), 1.0 / (R_i + R_j));
-  EffectiveLoads<double> q{0.0, lane(block.V, l), lane(block.M, l)};
+  const auto shape = bond_shape(section(law), std::min(R_i, R_j), 1.0 / (R_i + R_j));
+  EffectiveLoads<double> q{0.0, lane(block.V, l), lane(block.M, l), block.T[l]};
   if (intact > 0.0)
     q.N = shape.k_n * (gap_of(pair, p, cell) - block.gap_0[l] - block.u_p[l]);
-  return {intact * q.N, intact * vec3(q.V), intact * vec3(q.M), 1.0 - intact,
-          intact * spring_energy(shape, q)};
+  return {intact * q.N, intact * vec3(q.V), intact * vec3(q.M),
+          intact * q.T, 1.0 - intact,       intact * spring_energy(shape, q)};
 }
 
 } // namespace mergel::dem

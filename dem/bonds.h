@@ -1,7 +1,7 @@
 /// Which pairs are bonded, and the history of bond and contact between them.
 #pragma once
 
-#include "dem/laws/bond.h"
+#include "dem/laws/bond_law.h"
 #include "dem/laws/linear.h"
 #include "dem/pairs.h"
 #include "dem/particles.h"
@@ -16,6 +16,7 @@ struct BondBlock {
   Lanes u_p;         ///< plastic normal displacement [m]
   Triple<Lanes> V;   ///< effective shear force on i [N]
   Triple<Lanes> M;   ///< effective bending moment on i [N m]
+  Lanes T;           ///< effective twisting moment on i [N m]; 0 without twist
   Lanes intact;      ///< 1 - D; 0 once broken
   Triple<Lanes> f_s; ///< shear force of the contact on i [N]
 };
@@ -40,10 +41,11 @@ Bonds make_bonds(Particles& p, const PeriodicCell& cell, std::vector<Pair> pairs
 struct BondReading {
   double N;      ///< [N]
   Vec3 V, M;     ///< [N], [N m]
+  double T;      ///< [N m]
   double D;      ///< damage [-]
   double energy; ///< stored by the bond [J]
 };
 BondReading read_bond(const Bonds& bonds, std::size_t b, const Particles& p,
-                      const PeriodicCell& cell, const BondMaterial& material);
+                      const PeriodicCell& cell, const BondLaw& law);
 
 } // namespace mergel::dem

@@ -12,8 +12,8 @@ namespace mergel::dem {
 /// Sum in fixed point: terms are rounded to a multiple of the quantum and added as
 /// integers.
 ///
-/// The quantum is 2^-exponent in the unit of the sum; a term may reach 2^(62-exponent), the
-/// sum 2^64 times that. A larger or undefined term throws NumericalError: it is never
+/// The quantum is 2^-exponent in the unit of the sum; a term may reach 2^(100-exponent), the
+/// sum 2^27 times that. A larger or undefined term throws NumericalError: it is never
 /// clipped.
 template <int exponent>
 class ExactSum {
@@ -21,13 +21,16 @@ public:
   void add(double term)
   {
     const double scaled = term * scale;
-    if (!(std::abs(scaled) < 0x1p62))
+    if (std::abs(scaled) < 0x1p62) {
+      sum_ += static_cast<std::int64_t>(std::llrint(scaled));
+      return;
+    }
+    if (!(std::abs(scaled) < 0x1p100))
       throw NumericalError(
           "a force, power or energy is out of the range of the exact sums: " +
-          std::to_string(term) + ", at most " + std::to_string(0x1p62 / scale) +
-          " (SI): the run is unstable, or its grains are far larger than "
-          "millimetres");
-    sum_ += static_cast<std::int64_t>(std::llrint(scaled));
+          std::to_string(term) + ", at most " + std::to_string(0x1p100 / scale) +
+          " (SI): the run is unstable");
+    sum_ += static_cast<Wide>(scaled); // from 2^53 on a double is a whole number
   }
   ExactSum& operator+=(const ExactSum& other)
   {
@@ -43,8 +46,8 @@ private:
   Wide sum_ = 0;
 };
 
-using ForceSum = ExactSum<50>;  ///< [N]: quantum 9e-16 N, terms below 4,096 N
-using EnergySum = ExactSum<61>; ///< [J]: quantum 4e-19 J, terms below 2 J
+using ForceSum = ExactSum<50>;  ///< [N]: quantum 9e-16 N, terms below 1e15 N
+using EnergySum = ExactSum<61>; ///< [J]: quantum 4e-19 J, terms below 5e11 J
 
 /// Order-free sum of vectors.
 struct VectorSum {

@@ -125,20 +125,24 @@ void prefetch(const Particles& p, Index j)
 }
 
 /// Return the lanes that left the yield surface, one at a time.
-void return_lanes(const BondMaterial& b, const BondShape<Lanes>& s, const Lanes& S,
+template <IsBondLaw Law>
+void return_lanes(const Law& b, const BondShape<Lanes>& s, const Lanes& S,
                   const Mask& yields, const Four& q, const EffectiveLoads<Lanes>& old,
                   EffectiveLoads<Lanes>& load, BondBlock& h, Particles& p,
                   PairLosses& losses)
 {
   for (int l = 0; l < q.count; ++l) {
     if (!yields[l]) continue;
-    const BondShape<double> shape{s.R_b[l], s.A[l], s.k_n[l], s.k_s[l], s.k_b[l]};
-    const BondReturn r = return_bond(b, shape, b.u_c * S[l], {h.u_p[l], h.intact[l]},
-                                     {old.N[l], lane(old.V, l), lane(old.M, l)},
-                                     {load.N[l], lane(load.V, l), lane(load.M, l)});
+    const BondShape<double> shape{s.R_b[l], s.A[l], s.k_n[l], s.k_s[l], s.k_b[l], s.k_t[l]};
+    const auto loads = [l](const EffectiveLoads<Lanes>& q) {
+      return EffectiveLoads<double>{q.N[l], lane(q.V, l), lane(q.M, l), q.T[l]};
+    };
+    const BondReturn r =
+        return_bond(b, shape, S[l], {h.u_p[l], h.intact[l]}, loads(old), loads(load));
     load.N[l] = r.loads.N;
     set_lane(load.V, l, r.loads.V);
     set_lane(load.M, l, r.loads.M);
+    load.T[l] = r.loads.T;
     h.u_p[l] = r.state.u_p;
     h.intact[l] = r.state.intact;
     ++losses.yielded;
@@ -158,10 +162,9 @@ void add_slip(const Lanes& loss, int count, PairLosses& losses)
     if (loss[l] != 0.0) losses.slip.add(loss[l]);
 }
 
-} // namespace
-
-void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, double dt,
-                     Particles& p, Bonds& bonds, PairLosses& losses)
+template <IsBondLaw Law>
+void add_forces_of(const Law& bond, const LinearMaterial& beside, const PeriodicCell& cell,
+                   double dt, Particles& p, Bonds& bonds, PairLosses& losses)
 {
   const bool is_periodic = cell.is_periodic();
   const std::size_t n = bonds.size();
@@ -179,32 +182,46 @@ void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, do
     const Lanes r = min(i.R, j.R), S = 0.5 * (i.S + j.S);
 
     // bond
-    const BondShape<Lanes> shape = bond_shape(material.bond, r, k.inv_L);
+    const BondShape<Lanes> shape = bond_shape(bond, r, k.inv_L);
     const Triple<Lanes> V = turned(h.V, k), M = turned(h.M, k);
     EffectiveLoads<Lanes> load{shape.k_n * (k.gap - h.gap_0 - h.u_p),
-                               V + k.du_s * shape.k_s, M + k.dtheta * shape.k_b};
-    const Mask yields = ~is_elastic(material.bond, shape, load) & (h.intact > Lanes{});
+                               V + k.du_s * shape.k_s, M + k.dtheta * shape.k_b,
+                               h.T + k.dphi * shape.k_t};
+    const Mask yields = ~is_elastic(bond, shape, load) & (h.intact > Lanes{});
     if (any(yields)) {
-      const EffectiveLoads<Lanes> old{load.N - shape.k_n * k.du_n, V, M};
-      return_lanes(material.bond, shape, S, yields, q, old, load, h, p, losses);
+      const EffectiveLoads<Lanes> old{load.N - shape.k_n * k.du_n, V, M, h.T};
+      return_lanes(bond, shape, S, yields, q, old, load, h, p, losses);
     }
     const Mask lives = h.intact > Lanes{};
     const Triple<Lanes> zero{};
     h.V = select(lives, load.V, zero);
     h.M = select(lives, load.M, zero);
+    h.T = select(lives, load.T, Lanes{});
 
     // contact beside it
-    const auto contact =
-        linear_contact(material.contact, linear_stiffness(material.contact, r, k.inv_L),
-                       k.gap, material.contact.g_a * S, k.du_s, turned(h.f_s, k));
+    const auto contact = linear_contact(beside, linear_stiffness(beside, r, k.inv_L), k.gap,
+                                        beside.g_a * S, k.du_s, turned(h.f_s, k));
     h.f_s = contact.f_s;
     add_slip(contact.slip_loss, q.count, losses);
 
     const Lanes N = select(lives, load.N, Lanes{});
     const Triple<Lanes> F =
         k.n * (h.intact * N - contact.f_n) + h.V * h.intact + contact.f_s;
-    scatter(p.load.data(), q.i, q.j, q.count, to_rows(k, F, h.M * h.intact));
+    const Triple<Lanes> on_i = (h.M + k.n * h.T) * h.intact;
+    scatter(p.load.data(), q.i, q.j, q.count, to_rows(k, F, on_i));
   }
+}
+
+} // namespace
+
+void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, double dt,
+                     Particles& p, Bonds& bonds, PairLosses& losses)
+{
+  std::visit(
+      [&](const auto& law) {
+        add_forces_of(law, material.contact, cell, dt, p, bonds, losses);
+      },
+      material.bond);
 }
 
 void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell, double dt,

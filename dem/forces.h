@@ -16,9 +16,9 @@ struct PairLosses {
   std::size_t yielded = 0; ///< bonds that yielded, summed over steps
 };
 
-/// Stresses of a pair in one place: the bond and the contact beside it.
+/// Both materials of a pair: of the bond and of the contact beside it.
 struct PairMaterials {
-  BondMaterial bond;
+  BondLaw bond;
   LinearMaterial contact;
 };
 

@@ -32,6 +32,7 @@ struct PairMotion {
   Triple<Real>
       du_s; ///< shear of j against i at the contact point in this step, normal to n [m]
   Triple<Real> dtheta; ///< spin of j against i in this step, its part normal to n [rad]
+  Real dphi;           ///< the same about n [rad]
   Triple<Real> tilt;   ///< n - n_old to first order: turn of the pair in this step [-]
   Real twist;          ///< turn of the pair about n, the mean of both spins [rad]
 };
@@ -67,7 +68,9 @@ pair_motion(const End<Real>& i, const End<Real>& j, double dt, double share = 0.
   const Triple<Real> spin = j.omega - i.omega;
   k.du_n = v_n * dt;
   k.du_s = (v_s - k.n * dot(v_s, k.n)) * dt;
-  k.dtheta = (spin - k.n * dot(spin, k.n)) * dt;
+  const Real spin_n = dot(spin, k.n);
+  k.dtheta = (spin - k.n * spin_n) * dt;
+  k.dphi = spin_n * dt;
   k.twist = 0.5 * dt * dot(i.omega + j.omega, k.n);
   return k;
 }

@@ -42,6 +42,37 @@ void bond_to_mirror(Mirror& mirror, Particles& p, double limit)
   }
 }
 
+namespace {
+
+/// Force of a living bond towards the image [N]; the image's half of its energies is left
+/// out.
+template <IsBondLaw Law>
+double image_pull(const Law& law, double dt, double gap, Particles& p, MirrorPair& m,
+                  PairLosses& losses, EnergySum& energy)
+{
+  const Body& b = p.body[m.particle];
+  const auto shape = bond_shape(law, b.R, 0.5 / b.R);
+  EffectiveLoads<double> q{shape.k_n * (gap - m.gap_0 - m.bond.u_p), {}, {}};
+  if (!is_elastic(law, shape, q)) {
+    EffectiveLoads<double> old = q;
+    old.N -= shape.k_n * 2.0 * dt * b.v.y();
+    const BondReturn r = return_bond(law, shape, b.S, m.bond, old, q);
+    q = r.loads;
+    m.bond = r.state;
+    ++losses.yielded;
+    losses.plastic.add(0.5 * r.loss);
+    if (m.bond.intact == 0.0) {
+      losses.residue.add(0.5 * r.residue);
+      ++losses.broken;
+      --p.n_bonds[m.particle];
+    }
+  }
+  energy.add(0.5 * m.bond.intact * spring_energy(shape, q));
+  return m.bond.intact * q.N;
+}
+
+} // namespace
+
 void add_mirror_forces(const PairMaterials& material, double dt, Particles& p,
                        Mirror& mirror, PairLosses& losses)
 {
@@ -53,34 +84,17 @@ void add_mirror_forces(const PairMaterials& material, double dt, Particles& p,
     if (b.x.y() < 0.0)
       throw NumericalError("particle " + std::to_string(p.id[m.particle]) +
                            " passed through the symmetry plane");
-    const double gap = image_gap(b), inv_L = 0.5 / b.R;
+    const double gap = image_gap(b);
     double pull = 0.0; // towards the image
 
-    if (m.bond.intact > 0.0) {
-      const auto shape = bond_shape(material.bond, b.R, inv_L);
-      EffectiveLoads<double> q{shape.k_n * (gap - m.gap_0 - m.bond.u_p), {}, {}};
-      if (!is_elastic(material.bond, shape, q)) {
-        EffectiveLoads<double> old = q;
-        old.N -= shape.k_n * 2.0 * dt * b.v.y();
-        const BondReturn r =
-            return_bond(material.bond, shape, material.bond.u_c * b.S, m.bond, old, q);
-        q = r.loads;
-        m.bond = r.state;
-        ++losses.yielded;
-        losses.plastic.add(0.5 * r.loss);
-        if (m.bond.intact == 0.0) {
-          losses.residue.add(0.5 * r.residue);
-          ++losses.broken;
-          --p.n_bonds[m.particle];
-        }
-      }
-      pull += m.bond.intact * q.N;
-      energy.add(0.5 * m.bond.intact * spring_energy(shape, q));
-    }
+    if (m.bond.intact > 0.0)
+      pull += std::visit(
+          [&](const auto& law) { return image_pull(law, dt, gap, p, m, losses, energy); },
+          material.bond);
 
     const double closed = material.contact.g_a * b.S - gap;
     if (closed > 0.0) {
-      const double k_n = linear_stiffness(material.contact, b.R, inv_L).k_n;
+      const double k_n = linear_stiffness(material.contact, b.R, 0.5 / b.R).k_n;
       pull -= k_n * closed;
       energy.add(0.25 * k_n * closed * closed);
     }

@@ -8,6 +8,7 @@ namespace mergel::dem {
 
 namespace {
 
+/// A twisting stiffness k_s R_b^2/2 is left out: it is below k_s arm^2 about another axis.
 void add_spring(StiffnessSums& s, Index i, double k_n, double k_s, double arm, double k_b)
 {
   s.k[i] += k_n;
@@ -23,7 +24,7 @@ void add_pair(StiffnessSums& s, const PairMaterials& material, const PeriodicCel
   const double gap = (j.x + cell.offset(q.shift) - i.x).norm() - L;
   double k_n = 0.0, k_s = 0.0, k_b = 0.0;
   if (bonded) {
-    const auto b = bond_shape(material.bond, r, 1.0 / L);
+    const auto b = bond_shape(section(material.bond), r, 1.0 / L);
     k_n += b.k_n;
     k_s += b.k_s;
     k_b += b.k_b;
@@ -51,7 +52,7 @@ StiffnessSums stiffness_sums(const PairMaterials& material, const PeriodicCell& 
   return s;
 }
 
-void add_wall_stiffness(StiffnessSums& s, const BondMaterial& bond, const Particles& p,
+void add_wall_stiffness(StiffnessSums& s, const BondLaw& bond, const Particles& p,
                         const Wall& wall)
 {
   for (const WallContact& c : wall.contacts) {
@@ -63,7 +64,7 @@ void add_wall_stiffness(StiffnessSums& s, const BondMaterial& bond, const Partic
   for (const WallBond& b : wall.bonds) {
     if (b.state.intact == 0.0) continue;
     const double R = p.body[b.particle].R;
-    const auto k = bond_shape(bond, R, 1.0 / R);
+    const auto k = bond_shape(section(bond), R, 1.0 / R);
     add_spring(s, b.particle, k.k_n, k.k_s, R + std::max(0.0, b.gap_0), 0.0);
   }
 }
@@ -87,7 +88,7 @@ void add_mirror_stiffness(StiffnessSums& s, const PairMaterials& material,
     const double gap = 2.0 * (b.x.y() - b.R);
     // The image is a pair of equal masses like any other.
     if (m.bond.intact > 0.0)
-      s.k[m.particle] += bond_shape(material.bond, b.R, 0.5 / b.R).k_n;
+      s.k[m.particle] += bond_shape(section(material.bond), b.R, 0.5 / b.R).k_n;
     if (gap < material.contact.g_a * b.S)
       s.k[m.particle] += linear_stiffness(material.contact, b.R, 0.5 / b.R).k_n;
   }

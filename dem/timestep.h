@@ -20,7 +20,7 @@ StiffnessSums stiffness_sums(const PairMaterials& material, const PeriodicCell& 
                              const Contacts& contacts);
 
 /// Walls, image and pile add theirs.
-void add_wall_stiffness(StiffnessSums& s, const BondMaterial& bond, const Particles& p,
+void add_wall_stiffness(StiffnessSums& s, const BondLaw& bond, const Particles& p,
                         const Wall& wall);
 void add_surface_stiffness(StiffnessSums& s, const LinearMaterial& material,
                            const Particles& p, const SurfaceContacts& contacts);

@@ -388,7 +388,8 @@ void bond_to_wall(Wall& wall, Particles& p, double limit)
 namespace {
 
 /// Force on the particle at the anchor.
-Vec3 add_wall_bond(const BondMaterial& material, bool yields, double dt, const Vec3& x_a,
+template <IsBondLaw Law>
+Vec3 add_wall_bond(const Law& material, bool yields, double dt, const Vec3& x_a,
                    const Vec3& v_a, Particles& p, WallBond& bond, PairLosses& losses)
 {
   const Body& b = p.body[bond.particle];
@@ -402,8 +403,7 @@ Vec3 add_wall_bond(const BondMaterial& material, bool yields, double dt, const V
                               V + k.du_s * shape.k_s, Triple<double>{}};
   if (yields && !is_elastic(material, shape, load)) {
     const EffectiveLoads<double> old{load.N - shape.k_n * k.du_n, V, Triple<double>{}};
-    const BondReturn r =
-        return_bond(material, shape, material.u_c * b.S, bond.state, old, load);
+    const BondReturn r = return_bond(material, shape, b.S, bond.state, old, load);
     load = r.loads;
     bond.state = r.state;
     ++losses.yielded;
@@ -434,8 +434,8 @@ void push_nodes(Wall& wall, const Anchor& a, const Vec3& f)
 
 } // namespace
 
-void add_wall_forces(const BondMaterial& bond, bool yields, double dt, Particles& p,
-                     Wall& wall, PairLosses& losses)
+void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p, Wall& wall,
+                     PairLosses& losses)
 {
   for (VectorSum& f : wall.f) f.clear();
   wall.contact_power = 0.0;
@@ -471,7 +471,11 @@ void add_wall_forces(const BondMaterial& bond, bool yields, double dt, Particles
     if (b.state.intact == 0.0) continue;
     const Vec3 x_a = at(wall.x, wall.topology, b.anchor);
     const Vec3 v_a = at(wall.v, wall.topology, b.anchor);
-    const Vec3 f = add_wall_bond(bond, yields, dt, x_a, v_a, p, b, losses);
+    const Vec3 f = std::visit(
+        [&](const auto& bond) {
+          return add_wall_bond(bond, yields, dt, x_a, v_a, p, b, losses);
+        },
+        law);
     push_nodes(wall, b.anchor, -f);
     book(f, x_a, v_a);
   }

@@ -2,7 +2,7 @@
 /// out.
 #pragma once
 
-#include "dem/laws/bond.h"
+#include "dem/laws/bond_law.h"
 #include "dem/wall_contact.h"
 
 #include <array>
@@ -109,7 +109,7 @@ void bond_to_wall(Wall& wall, Particles& p, double limit);
 /// Add contacts and bonds to p.load and wall.f over the step dt [s] that ends now.
 /// @param yields bonds follow the bond law; otherwise they stay elastic
 /// @throws NumericalError naming the particle that is on the wrong side
-void add_wall_forces(const BondMaterial& bond, bool yields, double dt, Particles& p,
+void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p,
                      Wall& wall, PairLosses& losses);
 
 /// Point and velocity of an anchor.

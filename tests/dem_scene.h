@@ -11,9 +11,9 @@
 namespace mergel::dem::test {
 
 /// The bond of the paper's Table 1, left column.
-inline BondMaterial bond_of_table_1()
+inline DamageBond bond_of_table_1()
 {
-  BondMaterial b;
+  DamageBond b;
   b.E = 400e6;
   b.kappa = 2.0;
   b.sigma_t = 1e6;
@@ -25,9 +25,9 @@ inline BondMaterial bond_of_table_1()
 }
 
 /// The same bond, too strong to yield.
-inline BondMaterial unbreakable_bond()
+inline DamageBond unbreakable_bond()
 {
-  BondMaterial b = bond_of_table_1();
+  DamageBond b = bond_of_table_1();
   b.sigma_t = b.sigma_c = b.C = 1e15;
   return b;
 }
@@ -87,6 +87,8 @@ struct Scene {
     material = {bond_of_table_1(), no_contact()};
     motion.damping = 0.0;
   }
+
+  DamageBond& bond_law() { return std::get<DamageBond>(material.bond); }
 
   void bond(std::vector<Pair> pairs) { bonds = make_bonds(p, cell, std::move(pairs)); }
 

@@ -68,7 +68,7 @@ void write_bonds(const std::filesystem::path& file, const Rock& rock)
   for (const Body& b : rock.particles.body) x.push_back(b.x);
   std::vector<std::array<Index, 2>> lines;
   Field N = scalar("N", std::vector<double>(n)), D = scalar("D", std::vector<double>(n));
-  Field V = vector("V", n), M = vector("M", n);
+  Field V = vector("V", n), M = vector("M", n), T = scalar("T", std::vector<double>(n));
   for (std::size_t b = 0; b < n; ++b) {
     const Pair& q = rock.bonds.pairs[b];
     lines.push_back({q.i, q.j});
@@ -78,8 +78,9 @@ void write_bonds(const std::filesystem::path& file, const Rock& rock)
     D.values[b] = r.D;
     put(V, b, r.V);
     put(M, b, r.M);
+    T.values[b] = r.T;
   }
-  write_lines(file, x, lines, {N, V, M, D});
+  write_lines(file, x, lines, {N, V, M, T, D});
 }
 
 void write_pile(const std::filesystem::path& file, const Pile& pile, double z_top)

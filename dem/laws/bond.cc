@@ -120,7 +120,15 @@ YieldPoint closest_point(const YieldPoint& given, const EnergyNorm& w)
   return with_sign({s.n, std::min(trial.v, std::sqrt(h * p)), p * (1.0 - h * h)});
 }
 
-BondReturn return_bond(const BondMaterial& b, const BondShape<double>& s, double u_c,
+double yield_value(const DamageBond& b, const BondShape<double>& s,
+                   const EffectiveLoads<double>& q)
+{
+  const BondStrength strength = bond_strength(b, s, q.N);
+  return yield_function({q.N / strength.N, std::sqrt(dot(q.V, q.V)) / strength.V,
+                         std::sqrt(dot(q.M, q.M)) / strength.M});
+}
+
+BondReturn return_bond(const DamageBond& b, const BondShape<double>& s, double S,
                        const BondState& state, const EffectiveLoads<double>& old,
                        const EffectiveLoads<double>& trial)
 {
@@ -146,7 +154,7 @@ BondReturn return_bond(const BondMaterial& b, const BondShape<double>& s, double
   const double du_s = std::max(0.0, V - std::sqrt(dot(r.loads.V, r.loads.V))) / s.k_s;
   const double dtheta = std::max(0.0, M - std::sqrt(dot(r.loads.M, r.loads.M))) / s.k_b;
   r.state.u_p += du_n;
-  r.state.intact *= std::exp(-((std::abs(du_n) + du_s) / u_c + dtheta / b.theta_c));
+  r.state.intact *= std::exp(-((std::abs(du_n) + du_s) / (b.u_c * S) + dtheta / b.theta_c));
 
   const double d0 = state.intact, d1 = r.state.intact;
   const auto mean_work = [&](double q0, double q1, double motion) {
@@ -155,9 +163,11 @@ BondReturn return_bond(const BondMaterial& b, const BondShape<double>& s, double
   const auto mean_load = [&](const Triple<double>& q0, const Triple<double>& q1) {
     return q0 * (0.5 * d0) + q1 * (0.5 * d1);
   };
-  const double work = mean_work(old.N, r.loads.N, (trial.N - old.N) / s.k_n) +
-                      dot(mean_load(old.V, r.loads.V), trial.V - old.V) / s.k_s +
-                      dot(mean_load(old.M, r.loads.M), trial.M - old.M) / s.k_b;
+  const double work =
+      mean_work(old.N, r.loads.N, (trial.N - old.N) / s.k_n) +
+      dot(mean_load(old.V, r.loads.V), trial.V - old.V) / s.k_s +
+      dot(mean_load(old.M, r.loads.M), trial.M - old.M) / s.k_b +
+      (s.k_t > 0.0 ? mean_work(old.T, trial.T, (trial.T - old.T) / s.k_t) : 0.0);
   const double stored = d1 * spring_energy(s, r.loads);
   r.loss = work - (stored - d0 * spring_energy(s, old));
   if (r.state.intact <= 1.0 - b.D_broken) {

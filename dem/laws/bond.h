@@ -25,8 +25,7 @@
 /// - Eq. 7 for the moment: see BendingFlow.
 #pragma once
 
-#include "dem/error.h"
-#include "dem/lanes.h"
+#include "dem/laws/bond_section.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,67 +39,25 @@ namespace mergel::dem {
 /// units the moment then relaxes 1/R_b times (some 1e4 times) more slowly than N and V.
 enum class BendingFlow { conjugate, published };
 
-struct BondMaterial {
-  double E = 0.0;       ///< effective modulus [Pa], > 0, Eq. 4
-  double kappa = 1.0;   ///< normal-to-shear stiffness ratio [-], > 0, Eq. 4
+/// The paper's bond.
+struct DamageBond : BondSection {
   double sigma_t = 0.0; ///< tensile strength [Pa], > 0, Eq. 6
   double sigma_c = 0.0; ///< compressive strength [Pa], > 0
   double C = 0.0;       ///< shear strength [Pa], > 0
   double u_c = 0.0;     ///< softening displacement at S = 1 [m], > 0; scales with S, Eq. 8
   double theta_c = 0.0; ///< softening rotation [rad], > 0
-  double lambda_b =
-      1.0 / 3;            ///< bond radius over the smaller particle radius [-], in (0, 1]
   double D_broken = 0.99; ///< damage at which the bond is gone for good [-], in (0, 1)
   BendingFlow flow = BendingFlow::conjugate;
 
   /// @throws InputError when out of range
   void check() const
   {
-    require(E > 0.0 && kappa > 0.0, "bond modulus and stiffness ratio must be positive");
+    BondSection::check();
     require(sigma_t > 0.0 && sigma_c > 0.0 && C > 0.0, "bond strengths must be positive");
     require(u_c > 0.0 && theta_c > 0.0, "bond softening scales must be positive");
-    require(lambda_b > 0.0 && lambda_b <= 1.0, "bond radius ratio must lie in (0, 1]");
     require(D_broken > 0.0 && D_broken < 1.0, "damage at breakage must lie in (0, 1)");
   }
 };
-
-/// Section and stiffness of one bond: k_n = k_n0 A [N/m], k_s = k_s0 A [N/m], k_b = k_b0 [N
-/// m].
-template <class Real>
-struct BondShape {
-  Real R_b; ///< bond radius [m]
-  Real A;   ///< bond area [m^2]
-  Real k_n, k_s, k_b;
-};
-
-/// @param r smaller radius [m]; @param inv_L one over the sum of radii [1/m]
-template <class Real>
-BondShape<Real> bond_shape(const BondMaterial& b, const Real& r, const Real& inv_L)
-{
-  BondShape<Real> s;
-  s.R_b = b.lambda_b * r;
-  s.A = pi * s.R_b * s.R_b;
-  s.k_n = b.E * s.A * inv_L;
-  s.k_s = s.k_n * (1.0 / b.kappa);
-  s.k_b = 0.25 * s.k_n * s.R_b * s.R_b; // k_n0 I with I = A R_b^2/4
-  return s;
-}
-
-/// Effective loads, acting on i.
-template <class Real>
-struct EffectiveLoads {
-  Real N;         ///< tension positive [N]
-  Triple<Real> V; ///< [N]
-  Triple<Real> M; ///< [N m]
-};
-
-/// Energy of the intact springs under these effective loads [J]; the bond stores 1 - D of
-/// it.
-template <class Real>
-Real spring_energy(const BondShape<Real>& s, const EffectiveLoads<Real>& q)
-{
-  return 0.5 * (q.N * q.N / s.k_n + dot(q.V, q.V) / s.k_s + dot(q.M, q.M) / s.k_b);
-}
 
 /// True where the trial is inside the surface: m + n^2 < 1 and v^4 < (1-m-n^2)(1-n^2),
 /// rewritten without root or division:
@@ -109,8 +66,8 @@ Real spring_energy(const BondShape<Real>& s, const EffectiveLoads<Real>& q)
 ///
 /// each side scaled by the powers of A and R_b that clear the denominators.
 template <class Real>
-[[gnu::always_inline]] inline auto
-is_elastic(const BondMaterial& b, const BondShape<Real>& s, const EffectiveLoads<Real>& q)
+[[gnu::always_inline]] inline auto is_elastic(const DamageBond& b, const BondShape<Real>& s,
+                                              const EffectiveLoads<Real>& q)
 {
   const Real inv_sigma =
       select(q.N > Real{}, Real{} + 1.0 / b.sigma_t, Real{} + 1.0 / b.sigma_c);
@@ -153,31 +110,17 @@ struct EnergyNorm {
 /// the surface to round-off.
 YieldPoint closest_point(const YieldPoint& trial, const EnergyNorm& w);
 
-/// State of a bond that its law carries from step to step, in effective loads.
-struct BondState {
-  double u_p = 0.0;    ///< plastic normal displacement [m], signed
-  double intact = 1.0; ///< 1 - D; 0 once broken
-};
-
-/// What a plastic step does.
-struct BondReturn {
-  EffectiveLoads<double> loads; ///< on the yield surface
-  BondState state;              ///< updated
-  double loss = 0.0;    ///< energy dissipated by plasticity and damage [J], >= 0 for steps
-                        ///< below the strength, a trapezoid of the work beyond
-  double residue = 0.0; ///< energy still stored when the bond broke, dropped with it [J]
-};
-
 /// Return a trial state outside the surface to it and update the damage.
 ///
 /// @param old   effective loads before the step, turned into the present frame
 /// @param trial effective loads after an elastic step; the step moved the bond by (trial
 ///   - old)/k
-/// @param u_c   softening displacement of this pair, scaled with S [m]
+/// @param S     upscaling ratio of the pair [-]; u_c scales with it, Eq. 8
 ///
 /// The loss is the trapezoidal work of the true loads over the step less the growth of the
-/// energy stored.
-BondReturn return_bond(const BondMaterial& b, const BondShape<double>& s, double u_c,
+/// energy stored: >= 0 for steps below the strength. Twist is elastic, times 1 - D, and
+/// not in f.
+BondReturn return_bond(const DamageBond& b, const BondShape<double>& s, double S,
                        const BondState& state, const EffectiveLoads<double>& old,
                        const EffectiveLoads<double>& trial);
 
@@ -186,11 +129,14 @@ struct BondStrength {
   double N, V, M;
 };
 
-inline BondStrength bond_strength(const BondMaterial& b, const BondShape<double>& s,
-                                  double N)
+inline BondStrength bond_strength(const DamageBond& b, const BondShape<double>& s, double N)
 {
   return {(N > 0.0 ? b.sigma_t : b.sigma_c) * s.A, b.C * s.A,
           0.25 * b.sigma_t * s.A * s.R_b};
 }
+
+/// The continued yield function under these effective loads [-].
+double yield_value(const DamageBond& b, const BondShape<double>& s,
+                   const EffectiveLoads<double>& q);
 
 } // namespace mergel::dem

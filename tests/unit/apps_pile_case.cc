@@ -38,7 +38,7 @@ TEST_CASE("both shipped cases hold the paper's rock, Table 1", "[unit][apps]")
 {
   for (const char* name : {"pile_small.prm", "pile_paper.prm"}) {
     const PileCase c = read_case(name);
-    const dem::BondMaterial& b = c.rock.material.bond;
+    const auto& b = std::get<dem::DamageBond>(c.rock.material.bond);
     const double d00 = 0.066e-3;
     CHECK(b.E == 22.5e9);
     CHECK(b.kappa == 2.4);

@@ -16,7 +16,7 @@ struct Walk {
 /// Random walks in (u_n, u_s, theta), each step at most `stride` of the motion that yields.
 Walk walk(BendingFlow flow, double stride)
 {
-  BondMaterial b = bond_of_table_1();
+  DamageBond b = bond_of_table_1();
   b.flow = flow;
   // Softening over about the elastic range, so that damage takes many steps.
   b.u_c = 1e-3;
@@ -40,7 +40,7 @@ Walk walk(BendingFlow flow, double stride)
         q = trial;
         continue;
       }
-      const BondReturn r = return_bond(b, shape, b.u_c, state, q, trial);
+      const BondReturn r = return_bond(b, shape, 1.0, state, q, trial);
       w.least_loss = std::min(w.least_loss, r.loss);
       w.total_loss += r.loss;
       w.healed = w.healed || r.state.intact > state.intact;
@@ -69,14 +69,14 @@ TEST_CASE("Damage never decreases and the loss of a step is never negative", "[u
 TEST_CASE("The reversal of a plastic motion damages further", "[unit][dem]")
 {
   // Eq. 3 as printed, with |u_n^p| instead of its accumulation, would heal this bond.
-  const BondMaterial b = bond_of_table_1();
+  const DamageBond b = bond_of_table_1();
   const auto shape = bond_shape(b, 0.03, 1.0 / 0.06);
   const BondStrength tension = bond_strength(b, shape, 1.0),
                      press = bond_strength(b, shape, -1.0);
   const double step = 0.05e-3; // half of u_c
-  const BondReturn out = return_bond(b, shape, b.u_c, {}, {tension.N, {}, {}},
+  const BondReturn out = return_bond(b, shape, 1.0, {}, {tension.N, {}, {}},
                                      {tension.N + shape.k_n * step, {}, {}});
-  const BondReturn back = return_bond(b, shape, b.u_c, out.state, {-press.N, {}, {}},
+  const BondReturn back = return_bond(b, shape, 1.0, out.state, {-press.N, {}, {}},
                                       {-press.N - shape.k_n * step, {}, {}});
   CHECK(out.state.u_p == Approx(step).epsilon(1e-12));
   CHECK(back.state.u_p == Approx(0.0).margin(1e-12 * step));
@@ -86,12 +86,12 @@ TEST_CASE("The reversal of a plastic motion damages further", "[unit][dem]")
 
 TEST_CASE("A bond is gone for good at its damage of breakage", "[unit][dem]")
 {
-  BondMaterial b = bond_of_table_1();
+  DamageBond b = bond_of_table_1();
   b.D_broken = 0.5;
   const auto shape = bond_shape(b, 0.03, 1.0 / 0.06);
   const double N = bond_strength(b, shape, 1.0).N;
   const auto pulled = [&](double plastic) {
-    return return_bond(b, shape, b.u_c, {}, {N, {}, {}}, {N + shape.k_n * plastic, {}, {}});
+    return return_bond(b, shape, 1.0, {}, {N, {}, {}}, {N + shape.k_n * plastic, {}, {}});
   };
   CHECK(pulled(b.u_c * std::log(2.0) * 0.999).state.intact > 0.5);
   const BondReturn gone = pulled(b.u_c * std::log(2.0) * 1.001);

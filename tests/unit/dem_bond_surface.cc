@@ -59,7 +59,7 @@ TEST_CASE("The exponent 1.001 of Eq. 5 changes f by at most 3.7e-4", "[unit][dem
 
 TEST_CASE("The test without division or root agrees with the yield function", "[unit][dem]")
 {
-  const BondMaterial b = bond_of_table_1();
+  const DamageBond b = bond_of_table_1();
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> u(-1.3, 1.3), size(1e-5, 3e-2);
   int n_inside = 0, n_outside = 0;
@@ -83,24 +83,24 @@ TEST_CASE("The test without division or root agrees with the yield function", "[
 TEST_CASE("An unloaded bond is elastic and no material of the user's gets past its check",
           "[unit][dem]")
 {
-  const BondMaterial good = bond_of_table_1();
+  const DamageBond good = bond_of_table_1();
   CHECK_NOTHROW(good.check());
   CHECK(is_elastic(good, bond_shape(good, 1e-4, 5e3), EffectiveLoads<double>{}));
 
   const auto refused = [&](auto&& change) {
-    BondMaterial b = good;
+    DamageBond b = good;
     change(b);
     CHECK_THROWS_AS(b.check(), mergel::InputError);
   };
-  refused([](BondMaterial& b) { b.E = 0.0; });
-  refused([](BondMaterial& b) { b.kappa = -1.0; });
-  refused([](BondMaterial& b) { b.sigma_t = 0.0; });
-  refused([](BondMaterial& b) { b.sigma_c = std::nan(""); });
-  refused([](BondMaterial& b) { b.C = 0.0; });
-  refused([](BondMaterial& b) { b.u_c = 0.0; });
-  refused([](BondMaterial& b) { b.theta_c = -1e-3; });
-  refused([](BondMaterial& b) { b.lambda_b = 1.01; });
-  refused([](BondMaterial& b) { b.lambda_b = 0.0; });
-  refused([](BondMaterial& b) { b.D_broken = 1.0; });
-  refused([](BondMaterial& b) { b.D_broken = 0.0; });
+  refused([](DamageBond& b) { b.E = 0.0; });
+  refused([](DamageBond& b) { b.kappa = -1.0; });
+  refused([](DamageBond& b) { b.sigma_t = 0.0; });
+  refused([](DamageBond& b) { b.sigma_c = std::nan(""); });
+  refused([](DamageBond& b) { b.C = 0.0; });
+  refused([](DamageBond& b) { b.u_c = 0.0; });
+  refused([](DamageBond& b) { b.theta_c = -1e-3; });
+  refused([](DamageBond& b) { b.lambda_b = 1.01; });
+  refused([](DamageBond& b) { b.lambda_b = 0.0; });
+  refused([](DamageBond& b) { b.D_broken = 1.0; });
+  refused([](DamageBond& b) { b.D_broken = 0.0; });
 }

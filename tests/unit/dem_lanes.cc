@@ -77,9 +77,14 @@ TEST_CASE("A lane-wise choice takes each lane by its own condition", "[unit][dem
 TEST_CASE("The four-lane kernel gives the bits of the scalar kernel", "[unit][dem]")
 {
   Fours fours;
-  const BondMaterial bond = bond_of_table_1();
+  DamageBond bond = bond_of_table_1();
+  bond.twist = Twist::elastic;
+  ParallelBond brittle;
+  static_cast<BondSection&>(brittle) = bond;
+  brittle.sigma_c = bond.sigma_t;
+  brittle.tau_c = bond.C;
   const LinearMaterial law = contact(0.63e9, 2.4, 0.38, 3e-5);
-  int n_sliding = 0, n_open = 0, n_elastic = 0;
+  int n_sliding = 0, n_open = 0, n_elastic = 0, n_held = 0;
   for (int trial = 0; trial < 5000; ++trial) {
     const End<Lanes> i = fours.end(0.0), j = fours.end(2e-4);
     const double dt = 1e-7;
@@ -91,8 +96,9 @@ TEST_CASE("The four-lane kernel gives the bits of the scalar kernel", "[unit][de
     const auto c = linear_contact(law, stiffness, k.gap, g_a, k.du_s, V);
     const auto shape = bond_shape(bond, r, k.inv_L);
     const EffectiveLoads<Lanes> q{fours.number(-1e-3, 1e-3), fours.vector(1e-3),
-                                  fours.vector(1e-9)};
+                                  fours.vector(1e-9), fours.number(-1e-9, 1e-9)};
     const auto elastic = is_elastic(bond, shape, q);
+    const auto holds = is_elastic(brittle, shape, q);
 
     bool same = true;
     for (int l = 0; l < n_lanes; ++l) {
@@ -101,7 +107,7 @@ TEST_CASE("The four-lane kernel gives the bits of the scalar kernel", "[unit][de
              same_bits(k1.inv_L, k.inv_L[l]) && same_bits(k1.a_i, k.a_i[l]) &&
              same_bits(k1.a_j, k.a_j[l]) && same_bits(k1.du_n, k.du_n[l]) &&
              same_bits(k1.du_s, lane(k.du_s, l)) &&
-             same_bits(k1.dtheta, lane(k.dtheta, l)) &&
+             same_bits(k1.dtheta, lane(k.dtheta, l)) && same_bits(k1.dphi, k.dphi[l]) &&
              same_bits(k1.tilt, lane(k.tilt, l)) && same_bits(k1.twist, k.twist[l]);
 
       const auto V1 = turned(lane(history, l), k1);
@@ -115,12 +121,15 @@ TEST_CASE("The four-lane kernel gives the bits of the scalar kernel", "[unit][de
       n_open += c1.f_n == 0.0;
 
       const auto s1 = bond_shape(bond, r1, k1.inv_L);
-      const EffectiveLoads<double> q1{q.N[l], lane(q.V, l), lane(q.M, l)};
+      const EffectiveLoads<double> q1{q.N[l], lane(q.V, l), lane(q.M, l), q.T[l]};
       same = same && same_bits(s1.R_b, shape.R_b[l]) && same_bits(s1.A, shape.A[l]) &&
              same_bits(s1.k_n, shape.k_n[l]) && same_bits(s1.k_s, shape.k_s[l]) &&
-             same_bits(s1.k_b, shape.k_b[l]) &&
-             static_cast<bool>(is_elastic(bond, s1, q1)) == (elastic[l] != 0);
+             same_bits(s1.k_b, shape.k_b[l]) && same_bits(s1.k_t, shape.k_t[l]) &&
+             same_bits(spring_energy(s1, q1), spring_energy(shape, q)[l]) &&
+             static_cast<bool>(is_elastic(bond, s1, q1)) == (elastic[l] != 0) &&
+             static_cast<bool>(is_elastic(brittle, s1, q1)) == (holds[l] != 0);
       n_elastic += elastic[l] != 0;
+      n_held += holds[l] != 0;
     }
     REQUIRE(same);
   }
@@ -129,4 +138,6 @@ TEST_CASE("The four-lane kernel gives the bits of the scalar kernel", "[unit][de
   CHECK(n_open > 100);
   CHECK(n_elastic > 100);
   CHECK(n_elastic < 4 * 5000 - 100);
+  CHECK(n_held > 100);
+  CHECK(n_held < 4 * 5000 - 100);
 }

@@ -15,7 +15,7 @@ struct Bonded {
   Particles p;
   Wall wall = make_wall({{0, 0, 0}, {10e-3, 0, 0}, {10e-3, 10e-3, 0}, {0, 10e-3, 0}},
                         {{0, 1, 2}, {0, 2, 3}}, no_contact());
-  BondMaterial bond = bond_of_table_1();
+  DamageBond bond = bond_of_table_1();
   PairLosses losses;
 
   Bonded()

@@ -29,13 +29,15 @@ dem::Rock rock_at(const dem::Wall& wall)
 {
   dem::Rock rock;
   rock.material.contact = contact;
-  rock.material.bond.E = 22.5e9;
-  rock.material.bond.kappa = 2.4;
-  rock.material.bond.sigma_t = 36e6;
-  rock.material.bond.sigma_c = 198e6;
-  rock.material.bond.C = 40.5e6;
-  rock.material.bond.u_c = 4e-6;
-  rock.material.bond.theta_c = 0.04;
+  dem::DamageBond bond;
+  bond.E = 22.5e9;
+  bond.kappa = 2.4;
+  bond.sigma_t = 36e6;
+  bond.sigma_c = 198e6;
+  bond.C = 40.5e6;
+  bond.u_c = 4e-6;
+  bond.theta_c = 0.04;
+  rock.material.bond = bond;
   rock.motion.damping = 0.0;
   rock.list = dem::VerletList(0.0, 2e-5);
   const double R = 0.2e-3, overlap = 1e-6;

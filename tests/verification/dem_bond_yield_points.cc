@@ -16,7 +16,7 @@ struct Outcome {
 /// step.
 Outcome load_to(double factor, BendingFlow flow)
 {
-  BondMaterial b = bond_of_table_1();
+  DamageBond b = bond_of_table_1();
   b.flow = flow;
   b.u_c = 1.0; // hardly any damage, so that loads stay loads
   b.theta_c = 1.0;
@@ -35,7 +35,7 @@ Outcome load_to(double factor, BendingFlow flow)
     const EffectiveLoads<double> trial{factor * sign * n * strength.N,
                                        triple(factor * v * strength.V * e_v),
                                        triple(factor * m * strength.M * e_m)};
-    const BondReturn r = return_bond(b, shape, b.u_c, {}, {}, trial);
+    const BondReturn r = return_bond(b, shape, 1.0, {}, {}, trial);
     const double f =
         yield_function({r.loads.N / strength.N, vec3(r.loads.V).norm() / strength.V,
                         vec3(r.loads.M).norm() / strength.M});

@@ -56,7 +56,7 @@ TEST_CASE("A bonded pair stretches at omega^2 = k_n0 A (1/m1 + 1/m2)",
 TEST_CASE("A bonded pair bends at omega^2 = k_b0 (1/I1 + 1/I2)", "[verification][dem]")
 {
   Scene s = unequal_pair();
-  s.material.bond.kappa = 1e12; // no shear, which unequal spins would stir
+  section(s.material.bond).kappa = 1e12; // no shear, which unequal spins would stir
   const Body &i = s.p.body[0], &j = s.p.body[1];
   const double k_b = k_n * R_b * R_b / 4.0;
   const double omega = std::sqrt(k_b * (1.0 / i.inertia() + 1.0 / j.inertia()));

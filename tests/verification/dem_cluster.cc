@@ -11,7 +11,7 @@ namespace {
 
 /// Forty spheres of 2.5 to 5 mm side by side, bonded, spinning about a skew axis and
 /// shaking.
-Scene cluster(const BondMaterial& bond, double spin, double shake)
+Scene cluster(const DamageBond& bond, double spin, double shake)
 {
   Scene s;
   s.material = {bond, no_contact()};

@@ -13,7 +13,7 @@ Scene spring(Shape shape, double alpha, double kappa)
 {
   Scene s;
   s.material.bond = unbreakable_bond();
-  s.material.bond.kappa = kappa;
+  section(s.material.bond).kappa = kappa;
   s.motion.damping = alpha;
   const double R = 0.03;
   s.p.add(sphere({-R, 0, 0}, R));

@@ -19,7 +19,7 @@ struct DrivenBond {
   {
     s.p.add(sphere({0, 0, 0}, R));
     s.p.add(sphere({2.0 * R, 0, 0}, R));
-    s.material.bond.D_broken = D_broken;
+    s.bond_law().D_broken = D_broken;
     s.bond({{0, 1}});
   }
   BondReading move(const Vec3& du, const Vec3& dtheta_i, const Vec3& dtheta_j)
@@ -104,7 +104,7 @@ TEST_CASE("One bond rises to its strength and falls as exp(-(u-u_y)/u_c)",
 TEST_CASE("Both ways of bending flow agree where only bending acts", "[verification][dem]")
 {
   DrivenBond b;
-  b.s.material.bond.flow = BendingFlow::published;
+  b.s.bond_law().flow = BendingFlow::published;
   double theta = 0.0;
   CHECK(drive_to(b, modes[3], theta, 15.1e-3, 100) ==
         Approx(0.785398163 * std::exp(-1.0)).epsilon(1e-6));

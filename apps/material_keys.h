@@ -1,0 +1,29 @@
+/// The keys of bond and contact, the same in every job.
+#pragma once
+
+#include "apps/case_file.h"
+#include "dem/forces.h"
+
+namespace mergel::apps {
+
+inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
+
+/// Section "Bond": the keys of every bond law, of which `bond law` chooses one.
+struct BondKeys {
+  enum class Law { damage, parallel };
+
+  Law law = Law::damage;
+  dem::BondSection section; ///< common to all laws, but for the twist
+  dem::DamageBond damage;
+  dem::ParallelBond parallel;
+
+  /// The law that was chosen, complete.
+  dem::BondLaw chosen() const;
+};
+
+void declare(CaseFile& file, BondKeys& b);
+
+/// Section "Contact": the far-field contact between grains.
+void declare(CaseFile& file, dem::LinearMaterial& contact);
+
+} // namespace mergel::apps

@@ -1,0 +1,51 @@
+/// The bond laws that a run can choose from. A new one is a header beside this one, a name
+/// in the list below, its keys in apps/material_keys.cc, and its test; whatever it lacks is
+/// a compile error.
+#pragma once
+
+#include "dem/laws/bond.h"
+#include "dem/laws/parallel.h"
+
+#include <concepts>
+#include <variant>
+
+namespace mergel::dem {
+
+using BondLaw = std::variant<DamageBond, ParallelBond>;
+
+/// What the force kernel asks of a law: its elastic section, a test that four pairs take at
+/// a time, and the step of one bond that fails it.
+template <class Law>
+concept IsBondLaw = std::derived_from<Law, BondSection> &&
+    requires(const Law& law, const BondShape<Lanes>& shapes, const BondShape<double>& shape,
+             const EffectiveLoads<Lanes>& four, const EffectiveLoads<double>& loads,
+             const BondState& state, double S)
+{
+  law.check();
+  {
+    is_elastic(law, shapes, four)
+    } -> std::same_as<Mask>;
+  {
+    is_elastic(law, shape, loads)
+    } -> std::convertible_to<bool>;
+  {
+    return_bond(law, shape, S, state, loads, loads)
+    } -> std::same_as<BondReturn>;
+  {
+    yield_value(law, shape, loads)
+    } -> std::same_as<double>;
+};
+static_assert(IsBondLaw<DamageBond> && IsBondLaw<ParallelBond>);
+
+/// Elastic part of whichever law it is.
+inline const BondSection& section(const BondLaw& bond)
+{
+  return std::visit([](const auto& law) -> const BondSection& { return law; }, bond);
+}
+
+inline BondSection& section(BondLaw& bond)
+{
+  return std::visit([](auto& law) -> BondSection& { return law; }, bond);
+}
+
+} // namespace mergel::dem

@@ -1,0 +1,89 @@
+/// What every bond law shares: the elastic section of the bond, its loads and their energy.
+#pragma once
+
+#include "dem/error.h"
+#include "dem/lanes.h"
+
+namespace mergel::dem {
+
+/// Whether a bond resists twisting about its normal.
+enum class Twist {
+  none,   ///< as in the paper
+  elastic ///< k_s0 J with J = 2 I
+};
+
+/// Elastic part of a bond, Eq. 4 of the paper (Potyondy and Cundall 2004).
+struct BondSection {
+  double E = 0.0;     ///< effective modulus [Pa], > 0
+  double kappa = 1.0; ///< normal-to-shear stiffness ratio [-], > 0
+  double lambda_b =
+      1.0 / 3; ///< bond radius over the smaller particle radius [-], in (0, 1]
+  Twist twist = Twist::none;
+
+  /// @throws InputError when out of range
+  void check() const
+  {
+    require(E > 0.0 && kappa > 0.0, "bond modulus and stiffness ratio must be positive");
+    require(lambda_b > 0.0 && lambda_b <= 1.0, "bond radius ratio must lie in (0, 1]");
+  }
+};
+
+/// Section and stiffness of one bond.
+template <class Real>
+struct BondShape {
+  Real R_b; ///< bond radius [m]
+  Real A;   ///< bond area [m^2]
+  Real k_n; ///< k_n0 A [N/m]
+  Real k_s; ///< k_s0 A [N/m]
+  Real k_b; ///< bending stiffness k_n0 I, I = A R_b^2/4 [N m]
+  Real k_t; ///< twisting stiffness k_s0 J, J = A R_b^2/2 [N m]; 0 without twist
+};
+
+/// @param r smaller radius [m]; @param inv_L one over the sum of radii [1/m]
+template <class Real>
+BondShape<Real> bond_shape(const BondSection& b, const Real& r, const Real& inv_L)
+{
+  BondShape<Real> s;
+  s.R_b = b.lambda_b * r;
+  s.A = pi * s.R_b * s.R_b;
+  s.k_n = b.E * s.A * inv_L;
+  s.k_s = s.k_n * (1.0 / b.kappa);
+  s.k_b = 0.25 * s.k_n * s.R_b * s.R_b;
+  s.k_t = (b.twist == Twist::elastic ? 0.5 : 0.0) * s.k_s * s.R_b * s.R_b;
+  return s;
+}
+
+/// Loads of a bond divided by 1 - D, acting on i.
+template <class Real>
+struct EffectiveLoads {
+  Real N;         ///< tension positive [N]
+  Triple<Real> V; ///< [N]
+  Triple<Real> M; ///< bending moment, normal to n [N m]
+  Real T{};       ///< twisting moment about n [N m]
+};
+
+/// Energy of the intact springs under these effective loads [J]; the bond stores 1 - D of
+/// it.
+template <class Real>
+Real spring_energy(const BondShape<Real>& s, const EffectiveLoads<Real>& q)
+{
+  const Real k_t = select(s.k_t > Real{}, s.k_t, Real{} + 1.0); // T is 0 without twist
+  return 0.5 * (q.N * q.N / s.k_n + dot(q.V, q.V) / s.k_s + dot(q.M, q.M) / s.k_b +
+                q.T * q.T / k_t);
+}
+
+/// State of a bond that its law carries from step to step, beside its effective loads.
+struct BondState {
+  double u_p = 0.0;    ///< plastic normal displacement [m], signed
+  double intact = 1.0; ///< 1 - D; 0 once broken
+};
+
+/// What an inelastic step does.
+struct BondReturn {
+  EffectiveLoads<double> loads; ///< admitted by the law
+  BondState state;              ///< updated
+  double loss = 0.0;            ///< energy dissipated by plasticity and damage [J]
+  double residue = 0.0; ///< energy still stored when the bond broke, dropped with it [J]
+};
+
+} // namespace mergel::dem

@@ -1,0 +1,77 @@
+/// Elastic-brittle parallel bond of Potyondy and Cundall (2004), A bonded-particle model
+/// for rock, Int. J. Rock Mech. Min. Sci. 41, 1329, Eqs. 12-16.
+///
+///   elastic   N = k_n0 A u_n,  V += k_s0 A du_s,  M += k_n0 I dtheta,  T += k_s0 J dphi
+///   stresses  sigma = N/A + |M| R_b/I          greatest tension over the section
+///             tau   = |V|/A + |T| R_b/J        greatest shear
+///   breaks    at once, where sigma >= sigma_c or tau >= tau_c
+///
+/// Departures from the source:
+/// - The normal load follows the change of the gap, not a sum of increments: both agree, and
+///   the former has no drift.
+/// - Shear and bending stiffness follow from the modulus by Eq. 4 of the paper, with the
+///   bond's length R_i + R_j, as for every bond here.
+/// - Later versions let the bending moment contribute in part (beta) and give tau_c
+///   friction; the source has neither.
+#pragma once
+
+#include "dem/laws/bond_section.h"
+
+#include <cmath>
+
+namespace mergel::dem {
+
+struct ParallelBond : BondSection {
+  double sigma_c = 0.0; ///< tensile strength of the cement [Pa], > 0
+  double tau_c = 0.0;   ///< shear strength of the cement [Pa], > 0
+
+  ParallelBond() { twist = Twist::elastic; } // as in the source
+
+  /// @throws InputError when out of range
+  void check() const
+  {
+    BondSection::check();
+    require(sigma_c > 0.0 && tau_c > 0.0, "bond strengths must be positive");
+  }
+};
+
+/// Greatest stresses at the rim of the section [Pa].
+template <class Real>
+struct RimStress {
+  Real sigma; ///< tension positive
+  Real tau;
+};
+template <class Real>
+[[gnu::always_inline]] inline RimStress<Real> rim_stress(const BondShape<Real>& s,
+                                                         const EffectiveLoads<Real>& q)
+{
+  const Real inv_AR = 1.0 / (s.A * s.R_b); // R_b/I = 4/(A R_b), R_b/J = 2/(A R_b)
+  return {(q.N * s.R_b + 4.0 * sqrt(dot(q.M, q.M))) * inv_AR,
+          (sqrt(dot(q.V, q.V)) * s.R_b + 2.0 * select(q.T < Real{}, -q.T, q.T)) * inv_AR};
+}
+
+template <class Real>
+[[gnu::always_inline]] inline auto
+is_elastic(const ParallelBond& b, const BondShape<Real>& s, const EffectiveLoads<Real>& q)
+{
+  const RimStress<Real> at = rim_stress(s, q);
+  return (at.sigma < b.sigma_c) & (at.tau < b.tau_c);
+}
+
+/// Greater of sigma/sigma_c and tau/tau_c, less 1 [-].
+inline double yield_value(const ParallelBond& b, const BondShape<double>& s,
+                          const EffectiveLoads<double>& q)
+{
+  const RimStress<double> at = rim_stress(s, q);
+  return std::max(at.sigma / b.sigma_c, at.tau / b.tau_c) - 1.0;
+}
+
+/// The bond is gone, and with it the energy that it stored: nothing in it depends on S.
+inline BondReturn return_bond(const ParallelBond&, const BondShape<double>& s, double,
+                              const BondState& state, const EffectiveLoads<double>&,
+                              const EffectiveLoads<double>& trial)
+{
+  return {trial, {state.u_p, 0.0}, 0.0, spring_energy(s, trial)};
+}
+
+} // namespace mergel::dem
