@@ -156,23 +156,17 @@ BondReturn return_bond(const DamageBond& b, const BondShape<double>& s, double S
   r.state.u_p += du_n;
   r.state.intact *= std::exp(-((std::abs(du_n) + du_s) / (b.u_c * S) + dtheta / b.theta_c));
 
+  // Work of the true loads over the motion (trial - old)/k, trapezoidal.
   const double d0 = state.intact, d1 = r.state.intact;
-  const auto mean_work = [&](double q0, double q1, double motion) {
-    return 0.5 * (d0 * q0 + d1 * q1) * motion;
+  const auto work_of = [&](const EffectiveLoads<double>& q) {
+    return mutual_energy(s, q, trial) - mutual_energy(s, q, old);
   };
-  const auto mean_load = [&](const Triple<double>& q0, const Triple<double>& q1) {
-    return q0 * (0.5 * d0) + q1 * (0.5 * d1);
-  };
-  const double work =
-      mean_work(old.N, r.loads.N, (trial.N - old.N) / s.k_n) +
-      dot(mean_load(old.V, r.loads.V), trial.V - old.V) / s.k_s +
-      dot(mean_load(old.M, r.loads.M), trial.M - old.M) / s.k_b +
-      (s.k_t > 0.0 ? mean_work(old.T, trial.T, (trial.T - old.T) / s.k_t) : 0.0);
+  const double at_end = 0.5 * d1 * work_of(r.loads);
   const double stored = d1 * spring_energy(s, r.loads);
-  r.loss = work - (stored - d0 * spring_energy(s, old));
+  r.loss = 0.5 * d0 * work_of(old) + at_end - (stored - d0 * spring_energy(s, old));
   if (r.state.intact <= 1.0 - b.D_broken) {
     r.state.intact = 0.0;
-    r.residue = stored;
+    r.residue = stored - at_end;
   }
   return r;
 }

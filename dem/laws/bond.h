@@ -135,6 +135,12 @@ inline BondStrength bond_strength(const DamageBond& b, const BondShape<double>& 
           0.25 * b.sigma_t * s.A * s.R_b};
 }
 
+inline SingleStrengths single_strengths(const DamageBond& b, const BondShape<double>& s)
+{
+  const BondStrength pull = bond_strength(b, s, 1.0), push = bond_strength(b, s, -1.0);
+  return {pull.N, push.N, pull.V, pull.M};
+}
+
 /// The continued yield function under these effective loads [-].
 double yield_value(const DamageBond& b, const BondShape<double>& s,
                    const EffectiveLoads<double>& q);

@@ -62,15 +62,29 @@ struct EffectiveLoads {
   Real T{};       ///< twisting moment about n [N m]
 };
 
+/// q0.q1/k [J]: work of the constant load q0 on the elastic motion from rest to q1.
+template <class Real>
+Real mutual_energy(const BondShape<Real>& s, const EffectiveLoads<Real>& q0,
+                   const EffectiveLoads<Real>& q1)
+{
+  const Real k_t = select(s.k_t > Real{}, s.k_t, Real{} + 1.0); // T is 0 without twist
+  return q0.N * q1.N / s.k_n + dot(q0.V, q1.V) / s.k_s + dot(q0.M, q1.M) / s.k_b +
+         q0.T * q1.T / k_t;
+}
+
 /// Energy of the intact springs under these effective loads [J]; the bond stores 1 - D of
 /// it.
 template <class Real>
 Real spring_energy(const BondShape<Real>& s, const EffectiveLoads<Real>& q)
 {
-  const Real k_t = select(s.k_t > Real{}, s.k_t, Real{} + 1.0); // T is 0 without twist
-  return 0.5 * (q.N * q.N / s.k_n + dot(q.V, q.V) / s.k_s + dot(q.M, q.M) / s.k_b +
-                q.T * q.T / k_t);
+  return 0.5 * mutual_energy(s, q, q);
 }
+
+/// What an intact bond bears of each load alone; infinite where it does not fail.
+struct SingleStrengths {
+  double tension, compression, shear; ///< [N]
+  double moment;                      ///< bending [N m]
+};
 
 /// State of a bond that its law carries from step to step, beside its effective loads.
 struct BondState {
@@ -83,7 +97,9 @@ struct BondReturn {
   EffectiveLoads<double> loads; ///< admitted by the law
   BondState state;              ///< updated
   double loss = 0.0;            ///< energy dissipated by plasticity and damage [J]
-  double residue = 0.0; ///< energy still stored when the bond broke, dropped with it [J]
+  /// Energy dropped with a bond that broke [J]: what it still stored, less the work that its
+  /// load at the end of the step did not live to do (the second half of the trapezoid).
+  double residue = 0.0;
 };
 
 } // namespace mergel::dem

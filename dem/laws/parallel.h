@@ -17,7 +17,9 @@
 
 #include "dem/laws/bond_section.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mergel::dem {
 
@@ -58,6 +60,12 @@ is_elastic(const ParallelBond& b, const BondShape<Real>& s, const EffectiveLoads
   return (at.sigma < b.sigma_c) & (at.tau < b.tau_c);
 }
 
+inline SingleStrengths single_strengths(const ParallelBond& b, const BondShape<double>& s)
+{
+  return {b.sigma_c * s.A, std::numeric_limits<double>::infinity(), b.tau_c * s.A,
+          0.25 * b.sigma_c * s.A * s.R_b};
+}
+
 /// Greater of sigma/sigma_c and tau/tau_c, less 1 [-].
 inline double yield_value(const ParallelBond& b, const BondShape<double>& s,
                           const EffectiveLoads<double>& q)
@@ -68,10 +76,11 @@ inline double yield_value(const ParallelBond& b, const BondShape<double>& s,
 
 /// The bond is gone, and with it the energy that it stored: nothing in it depends on S.
 inline BondReturn return_bond(const ParallelBond&, const BondShape<double>& s, double,
-                              const BondState& state, const EffectiveLoads<double>&,
+                              const BondState& state, const EffectiveLoads<double>& old,
                               const EffectiveLoads<double>& trial)
 {
-  return {trial, {state.u_p, 0.0}, 0.0, spring_energy(s, trial)};
+  // stored q1.q1/2k, less the work not done q1.(q1 - q0)/2k
+  return {trial, {state.u_p, 0.0}, 0.0, 0.5 * mutual_energy(s, old, trial)};
 }
 
 } // namespace mergel::dem

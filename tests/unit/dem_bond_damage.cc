@@ -96,7 +96,12 @@ TEST_CASE("A bond is gone for good at its damage of breakage", "[unit][dem]")
   CHECK(pulled(b.u_c * std::log(2.0) * 0.999).state.intact > 0.5);
   const BondReturn gone = pulled(b.u_c * std::log(2.0) * 1.001);
   CHECK(gone.state.intact == 0.0);
-  // it dropped what the damaged spring still held
+  // It dropped what the damaged spring still held, less the work of the load that is gone.
+  const double plastic = b.u_c * std::log(2.0) * 1.001;
+  const double intact = std::exp(-std::log(2.0) * 1.001);
   CHECK(gone.residue ==
-        Approx(std::exp(-std::log(2.0) * 1.001) * 0.5 * N * N / shape.k_n).epsilon(1e-12));
+        Approx(0.5 * intact * (N * N / shape.k_n - N * plastic)).epsilon(1e-12));
+  // In all: half of the step's work, which is the load's at its start, and what was stored.
+  CHECK(gone.loss + gone.residue ==
+        Approx(0.5 * N * plastic + 0.5 * N * N / shape.k_n).epsilon(1e-12));
 }
