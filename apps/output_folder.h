@@ -17,8 +17,8 @@ enum class Earlier {
 ///
 /// mergel's own files in it, and the marks of an earlier run: history.csv, resolved.prm,
 /// summary.json, sample.h5, the four series particles, bonds, pile and far_field (.pvd, and
-/// their numbered files in fields/), mergel-view's damage.png, load.png and
-/// displacement.png; also their temporary files (dem/io/atomic_file.h). fields/ itself goes
+/// their numbered files in fields/), mergel-view's damage.png, load.png, displacement.png,
+/// loads.png and surface.png; also their temporary files (dem/io/atomic_file.h). fields/ itself goes
 /// when nothing else is in it.
 class OutputFolder {
 public:

@@ -1,8 +1,7 @@
 #include "apps/view_chart.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
+#include "apps/view_curve.h"
+
 #include <vector>
 
 namespace mergel::apps {
@@ -15,56 +14,15 @@ const Colour pale_blue{0.66, 0.78, 0.89};
 const Colour blue{0.05, 0.28, 0.55};
 const Colour red{0.62, 0.10, 0.12};
 
-struct Range {
-  double low = 0.0, high = 0.0; // always holds 0
-};
-
-Range range(const std::vector<double>& values)
-{
-  Range result;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    result.low = std::min(result.low, value);
-    result.high = std::max(result.high, value);
-  }
-  return result;
-}
-
-/// An axis from the lowest to the highest value, widened to a round number.
-Axis axis(const Range& r, const std::string& title)
-{
-  const double high = r.high > r.low ? r.high : r.low + 1.0;
-  const auto ticks = round_ticks(r.low, high, 5);
-  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : high - r.low;
-  // 2 % of a step: a value that ends on a tick does not call for another one
-  return {step * std::floor(r.low / step + 0.02), step * std::ceil(high / step - 0.02),
-          title};
-}
-
-/// One curve, broken where a value is missing.
-void draw_curve(Page& page, const Panel& panel, const std::vector<double>& x,
-                const std::vector<double>& depth, const Colour& colour, double width)
-{
-  std::vector<Pixel> points;
-  for (std::size_t row = 0; row < x.size(); ++row)
-    if (std::isfinite(x[row]) && std::isfinite(depth[row])) {
-      points.push_back(panel.at(x[row], depth[row]));
-    } else {
-      page.line(points, colour, width);
-      points.clear();
-    }
-  page.line(points, colour, width);
-}
-
 } // namespace
 
-void draw_load(Page& page, const HistoryTable& history)
+void draw_load(Page& page, const dem::Table& history)
 {
   const std::vector<double>& depth = history.column("depth/D_p", "-");
   std::vector<double> q_c = history.column("q_c", "Pa");
   const std::vector<double>& broken = history.column("bonds broken", "-");
   for (double& q : q_c) q /= Pa_per_MPa;
-  const std::vector<double> mean = moving_mean(depth, q_c, averaging_window);
+  const std::vector<double> mean = dem::moving_mean(depth, q_c, averaging_window);
 
   const double u = page.unit();
   const double left = 140.0 * u, right = page.width() - 75.0 * u, gap = 60.0 * u;
@@ -74,14 +32,14 @@ void draw_load(Page& page, const HistoryTable& history)
   const Range depths = range(depth);
   Panel load;
   load.box = {left, bottom, middle - 0.5 * gap, top};
-  load.x = axis(range(q_c), "cone resistance (MPa)");
+  load.x = round_axis(range(q_c), "cone resistance (MPa)");
   load.y = {depths.high > depths.low ? depths.high : depths.low + 1.0, depths.low,
             "depth / pile diameter"};
   load.is_x_on_top = true;
   load.has_grid = true;
   draw_axes(page, load);
-  draw_curve(page, load, q_c, depth, pale_blue, 2.0);
-  draw_curve(page, load, mean, depth, blue, 5.0);
+  draw_curve(page, load, q_c, depth, {pale_blue, 2.0, {}});
+  draw_curve(page, load, mean, depth, {blue, 5.0, {}});
 
   const Pixel key{load.box.left + 40.0 * u, load.box.bottom + 95.0 * u};
   page.fill({key.x - 20.0 * u, key.y - 70.0 * u, key.x + 400.0 * u, key.y + 30.0 * u},
@@ -94,11 +52,11 @@ void draw_load(Page& page, const HistoryTable& history)
 
   Panel bonds = load;
   bonds.box = {middle + 0.5 * gap, bottom, right, top};
-  bonds.x = axis(range(broken), "broken bonds");
+  bonds.x = round_axis(range(broken), "broken bonds");
   bonds.y.title = "";
   bonds.has_y_numbers = false;
   draw_axes(page, bonds);
-  draw_curve(page, bonds, broken, depth, red, 5.0);
+  draw_curve(page, bonds, broken, depth, {red, 5.0, {}});
 }
 
 } // namespace mergel::apps

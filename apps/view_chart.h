@@ -1,14 +1,14 @@
 /// Curves over the depth of a pile, drawn as soil mechanics draws them: depth downwards.
 #pragma once
 
-#include "apps/history_table.h"
 #include "apps/view_page.h"
+#include "dem/io/table.h"
 
 namespace mergel::apps {
 
 /// Cone resistance (as recorded, and its mean over 0.1 D_p of travel) and number of broken
 /// bonds against depth in pile diameters.
 /// @throws InputError when the history lacks depth/D_p [-], q_c [Pa] or bonds broken [-]
-void draw_load(Page& page, const HistoryTable& history);
+void draw_load(Page& page, const dem::Table& history);
 
 } // namespace mergel::apps

@@ -60,6 +60,60 @@ private:
   vtkNew<vtkCellArray> cells_;
 };
 
+std::vector<Pixel> circle(const Pixel& centre, double radius, int n_sides)
+{
+  std::vector<Pixel> corners;
+  for (int side = 0; side < n_sides; ++side) {
+    const double angle = 2.0 * dem::pi * side / n_sides;
+    corners.push_back(
+        {centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  return corners;
+}
+
+/// Bars and round joints: lines of the graphics library gape where they bend.
+void add_line(Shapes& shapes, const std::vector<Pixel>& points, double half)
+{
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+    const Pixel a = points[k], b = points[k + 1];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0.0)) continue;
+    const double nx = -half * (b.y - a.y) / length, ny = half * (b.x - a.x) / length;
+    shapes.add({{a.x + nx, a.y + ny},
+                {a.x - nx, a.y - ny},
+                {b.x - nx, b.y - ny},
+                {b.x + nx, b.y + ny}});
+    if (k + 2 < points.size()) shapes.add(circle(b, half, 12));
+  }
+}
+
+/// The drawn pieces of a dashed line; lengths of the pattern in `unit` pixels, > 0.
+std::vector<std::vector<Pixel>> dashes(const std::vector<Pixel>& points,
+                                       const std::vector<double>& pattern, double unit)
+{
+  if (points.empty()) return {};
+  std::vector<std::vector<Pixel>> pieces{{points.front()}};
+  std::size_t part = 0; // of the pattern; the even ones are drawn
+  double rest = pattern.front() * unit;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+    const Pixel a = points[k], b = points[k + 1];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    for (double along = 0.0; along < length;) {
+      const double step = std::min(rest, length - along);
+      along += step;
+      rest -= step;
+      const Pixel here{a.x + (b.x - a.x) * along / length,
+                       a.y + (b.y - a.y) * along / length};
+      if (part % 2 == 0) pieces.back().push_back(here);
+      if (rest > 0.0) continue;
+      part = (part + 1) % pattern.size();
+      rest = pattern[part] * unit;
+      if (part % 2 == 0) pieces.push_back({here});
+    }
+  }
+  return pieces;
+}
+
 } // namespace
 
 Page::Page(int width, int height)
@@ -85,28 +139,27 @@ vtkRenderer* Page::scene(const Box& box)
   return renderer; // the window keeps it alive
 }
 
+void Page::line(const std::vector<Pixel>& points, const Stroke& stroke)
+{
+  Shapes shapes;
+  const double half = 0.5 * stroke.width * unit_;
+  if (stroke.dash.empty())
+    add_line(shapes, points, half);
+  else
+    for (const auto& piece : dashes(points, stroke.dash, unit_))
+      add_line(shapes, piece, half);
+  shapes.show(overlay_, stroke.colour);
+}
+
 void Page::line(const std::vector<Pixel>& points, const Colour& colour, double units_wide)
 {
-  // Bars and round joints: lines of the graphics library gape where they bend.
-  const double half = 0.5 * units_wide * unit_;
+  line(points, Stroke{colour, units_wide, {}});
+}
+
+void Page::dot(const Pixel& centre, const Colour& colour, double units_across)
+{
   Shapes shapes;
-  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-    const Pixel a = points[k], b = points[k + 1];
-    const double length = std::hypot(b.x - a.x, b.y - a.y);
-    if (!(length > 0.0)) continue;
-    const double nx = -half * (b.y - a.y) / length, ny = half * (b.x - a.x) / length;
-    shapes.add({{a.x + nx, a.y + ny},
-                {a.x - nx, a.y - ny},
-                {b.x - nx, b.y - ny},
-                {b.x + nx, b.y + ny}});
-    std::vector<Pixel> joint;
-    constexpr int n_sides = 12;
-    for (int side = 0; side < n_sides; ++side) {
-      const double angle = 2.0 * dem::pi * side / n_sides;
-      joint.push_back({b.x + half * std::cos(angle), b.y + half * std::sin(angle)});
-    }
-    if (k + 2 < points.size()) shapes.add(joint);
-  }
+  shapes.add(circle(centre, 0.5 * units_across * unit_, 32));
   shapes.show(overlay_, colour);
 }
 

@@ -30,6 +30,13 @@ struct Box {
 using Colour = std::array<double, 3>; ///< red, green, blue, 0 to 1
 inline constexpr Colour ink{0.13, 0.13, 0.13};
 
+/// How a line is drawn; lengths in units of the page.
+struct Stroke {
+  Colour colour = ink;
+  double width = 4.0;
+  std::vector<double> dash; ///< drawn, left out, drawn, ... along the line; empty: unbroken
+};
+
 /// Which part of the text its position names.
 enum class Across { left, middle, right };
 enum class Up { foot, middle, head };
@@ -54,7 +61,9 @@ public:
   /// A white scene in this box, below lines and text.
   vtkRenderer* scene(const Box& box);
 
+  void line(const std::vector<Pixel>& points, const Stroke& stroke);
   void line(const std::vector<Pixel>& points, const Colour& colour, double units_wide);
+  void dot(const Pixel& centre, const Colour& colour, double units_across);
   void fill(const Box& box, const Colour& colour);
   void text(const Pixel& at, const std::string& words, const TextStyle& style = {});
 

@@ -1,4 +1,4 @@
-#include "apps/history_table.h"
+#include "dem/io/table.h"
 
 #include "dem/error.h"
 
@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 using namespace mergel;
-using namespace mergel::apps;
+using namespace mergel::dem;
 
 namespace {
 
@@ -39,7 +39,7 @@ std::string message_of(const std::string& contents)
 {
   const File file(contents);
   try {
-    read_history(file.path);
+    read_table(file.path);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -48,13 +48,13 @@ std::string message_of(const std::string& contents)
 
 } // namespace
 
-TEST_CASE("columns are found by name and unit, in any order", "[unit][apps]")
+TEST_CASE("columns are found by name and unit, in any order", "[unit][dem]")
 {
   const File file("time [s],depth/D_p [-],q_c [Pa],note\n"
                   "0,0,1e6,7\r\n"
                   "\n"
                   " 1e-3 , +0.5 ,3.0000000000000004e6,8\n");
-  const HistoryTable table = read_history(file.path);
+  const Table table = read_table(file.path);
   CHECK(table.n_rows == 2);
   CHECK(table.column("time", "s") == std::vector<double>{0.0, 1e-3});
   CHECK(table.column("depth/D_p", "-") == std::vector<double>{0.0, 0.5});
@@ -66,37 +66,47 @@ TEST_CASE("columns are found by name and unit, in any order", "[unit][apps]")
 }
 
 TEST_CASE("a missing column and a wrong unit are told apart from what is there",
-          "[unit][apps]")
+          "[unit][dem]")
 {
   const File file("time [s],q_c [MPa]\n0,1\n");
-  const HistoryTable table = read_history(file.path);
+  const Table table = read_table(file.path);
   CHECK_THROWS_AS(table.column("depth", "m"), InputError);
   CHECK_THROWS_WITH(table.column("q_c", "Pa"), Catch::Contains(file.path.string()) &&
                                                    Catch::Contains("'q_c [Pa]'") &&
                                                    Catch::Contains("'q_c [MPa]'"));
 }
 
-TEST_CASE("the line a run is still writing is left out and reported", "[unit][apps]")
+TEST_CASE("the line a run is still writing is left out and reported", "[unit][dem]")
 {
   // "1.2" may be the beginning of "1.25": a line without its end is never trusted.
   for (const char* last : {"2,1.2", "2", "2,"}) {
     const File file(std::string("time [s],depth [m]\n1,1.1\n") + last);
-    const HistoryTable table = read_history(file.path);
+    const Table table = read_table(file.path);
     INFO(last);
     CHECK(table.n_rows == 1);
     CHECK(table.is_last_line_cut);
   }
 }
 
-TEST_CASE("values that a run did not have are NaN", "[unit][apps]")
+TEST_CASE("a table that a person wrote may end without a newline, and knows its lines",
+          "[unit][dem]")
+{
+  const File file("u [m]\n\n1\n2");
+  const Table table = read_table(file.path, LastLine::whole);
+  CHECK(table.column("u", "m") == std::vector<double>{1.0, 2.0});
+  CHECK(table.lines == std::vector<std::size_t>{3, 4});
+  CHECK_FALSE(table.is_last_line_cut);
+}
+
+TEST_CASE("values that a run did not have are NaN", "[unit][dem]")
 {
   const File file("time [s],a [-],b [-]\n1,nan,\n");
-  const HistoryTable table = read_history(file.path);
+  const Table table = read_table(file.path);
   CHECK(std::isnan(table.column("a", "-")[0]));
   CHECK(std::isnan(table.column("b", "-")[0]));
 }
 
-TEST_CASE("a damaged history is refused with file and line", "[unit][apps]")
+TEST_CASE("a damaged history is refused with file and line", "[unit][dem]")
 {
   const std::string head = "time [s],depth [m]\n";
   CHECK_THAT(message_of(head + "1,2\n3\n"),
@@ -110,12 +120,12 @@ TEST_CASE("a damaged history is refused with file and line", "[unit][apps]")
   CHECK_THAT(message_of(""), Catch::Contains("no record"));
   CHECK_THAT(message_of("a [m],a [s]\n1,2\n"), Catch::Contains("two columns"));
   CHECK_THAT(message_of("a [m],\n1,2\n"), Catch::Contains("no name"));
-  CHECK_THROWS_AS(read_history("/nowhere/history.csv"), InputError);
-  CHECK_THROWS_AS(read_history("/tmp"), InputError);
+  CHECK_THROWS_AS(read_table("/nowhere/history.csv"), InputError);
+  CHECK_THROWS_AS(read_table("/tmp"), InputError);
 }
 
 TEST_CASE("interpolation is linear between records, constant beyond, and skips NaN",
-          "[unit][apps]")
+          "[unit][dem]")
 {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> x{0.0, 1.0, 2.0, 4.0}, y{10.0, 20.0, none, 50.0};
@@ -127,7 +137,7 @@ TEST_CASE("interpolation is linear between records, constant beyond, and skips N
   CHECK(std::isnan(interpolate({}, {}, 0.0)));
 }
 
-TEST_CASE("the moving mean keeps a straight line and counts each row once", "[unit][apps]")
+TEST_CASE("the moving mean keeps a straight line and counts each row once", "[unit][dem]")
 {
   const double none = std::numeric_limits<double>::quiet_NaN();
   // Out of order, as after a hold that moves back a little; 0.2 twice.

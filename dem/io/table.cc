@@ -1,4 +1,4 @@
-#include "apps/history_table.h"
+#include "dem/io/table.h"
 
 #include "dem/error.h"
 
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <limits>
 
-namespace mergel::apps {
+namespace mergel::dem {
 
 namespace {
 
@@ -31,7 +31,7 @@ std::vector<std::string_view> split(std::string_view line)
 }
 
 /// "tip force [N]" -> name "tip force", unit "N".
-HistoryColumn heading(std::string_view cell)
+TableColumn heading(std::string_view cell)
 {
   const std::size_t open = cell.rfind('[');
   if (open == std::string_view::npos || cell.back() != ']')
@@ -53,46 +53,45 @@ bool parse(std::string_view cell, double& value)
   return error == std::errc{} && end == cell.data() + cell.size();
 }
 
-std::string quoted_names(const HistoryTable& table)
+std::string quoted_names(const Table& table)
 {
   std::string names;
-  for (const HistoryColumn& c : table.columns)
+  for (const TableColumn& c : table.columns)
     names += (names.empty() ? "'" : ", '") + c.name + " [" + c.unit + "]'";
   return names;
 }
 
-const HistoryColumn* find(const HistoryTable& table, std::string_view name)
+const TableColumn* find(const Table& table, std::string_view name)
 {
   const auto found =
       std::find_if(table.columns.begin(), table.columns.end(),
-                   [&](const HistoryColumn& column) { return column.name == name; });
+                   [&](const TableColumn& column) { return column.name == name; });
   return found == table.columns.end() ? nullptr : &*found;
 }
 
 } // namespace
 
-bool HistoryTable::has(std::string_view name) const
+bool Table::has(std::string_view name) const
 {
   return find(*this, name) != nullptr;
 }
 
-const std::vector<double>& HistoryTable::column(std::string_view name,
-                                                std::string_view unit) const
+const std::vector<double>& Table::column(std::string_view name, std::string_view unit) const
 {
-  const HistoryColumn* found = find(*this, name);
+  const TableColumn* found = find(*this, name);
   require(found != nullptr && found->unit == unit,
           file.string() + ": no column '" + std::string(name) + " [" + std::string(unit) +
               "]'; there are " + quoted_names(*this) + ".");
   return found->values;
 }
 
-HistoryTable read_history(const std::filesystem::path& file)
+Table read_table(const std::filesystem::path& file, LastLine last)
 {
   std::ifstream in(file);
   require(std::filesystem::is_regular_file(file) && in.good(),
           file.string() + ": cannot be read. Check the name and its permissions.");
 
-  HistoryTable table;
+  Table table;
   table.file = file;
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
@@ -103,7 +102,7 @@ HistoryTable read_history(const std::filesystem::path& file)
     const auto cells = split(line);
     if (table.columns.empty()) {
       for (const std::string_view cell : cells) {
-        HistoryColumn column = heading(cell);
+        TableColumn column = heading(cell);
         require(!column.name.empty(), where + "a column has no name.");
         require(!table.has(column.name),
                 where + "two columns are named '" + column.name + "'.");
@@ -111,7 +110,7 @@ HistoryTable read_history(const std::filesystem::path& file)
       }
       continue;
     }
-    if (!is_complete) {
+    if (!is_complete && last == LastLine::may_be_cut) {
       table.is_last_line_cut = true;
       continue;
     }
@@ -125,9 +124,9 @@ HistoryTable read_history(const std::filesystem::path& file)
       table.columns[c].values.push_back(value);
     }
     ++table.n_rows;
+    table.lines.push_back(number);
   }
-  require(table.n_rows > 0,
-          file.string() + ": holds no record. Has the run begun to move?");
+  require(table.n_rows > 0, file.string() + ": holds no record below its headings.");
   return table;
 }
 
@@ -171,4 +170,4 @@ std::vector<double> moving_mean(const std::vector<double>& x, const std::vector<
   return mean;
 }
 
-} // namespace mergel::apps
+} // namespace mergel::dem

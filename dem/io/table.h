@@ -1,4 +1,5 @@
-/// The history.csv of a run as columns of numbers, found by name.
+/// A table of numbers in a text file, such as the history.csv of a run: columns found by
+/// name.
 #pragma once
 
 #include <filesystem>
@@ -6,21 +7,22 @@
 #include <string_view>
 #include <vector>
 
-namespace mergel::apps {
+namespace mergel::dem {
 
 /// One column; its heading in the file is "name [unit]".
-struct HistoryColumn {
+struct TableColumn {
   std::string name; ///< as written, without the unit
   std::string unit; ///< "-" for a pure number, empty if the heading gives none
   std::vector<double>
       values; ///< one per record; NaN where the run had no value ("nan" or empty)
 };
 
-/// A history: every column has n_rows values.
-struct HistoryTable {
+/// Every column has n_rows values.
+struct Table {
   std::filesystem::path file;
-  std::vector<HistoryColumn> columns; ///< in the order of the file
+  std::vector<TableColumn> columns; ///< in the order of the file
   std::size_t n_rows = 0;
+  std::vector<std::size_t> lines; ///< of the file, one per row
   bool is_last_line_cut =
       false; ///< the run was writing, or was killed: that line is left out
 
@@ -28,15 +30,20 @@ struct HistoryTable {
 
   /// The column of this name, which must carry this unit.
   /// @throws InputError naming the file, the name or unit found missing, and the names
-  /// there are
+  ///   there are
   const std::vector<double>& column(std::string_view name, std::string_view unit) const;
 };
 
-/// Read a history. Any column may be missing and more may follow: ask by name.
+/// Whether a last line without its end counts.
+enum class LastLine {
+  whole,     ///< yes: a person wrote the file
+  may_be_cut ///< no: a run may be writing it, and "1.2" be the beginning of "1.25"
+};
+
+/// Read a table. Any column may be missing and more may follow: ask by name.
 /// @throws InputError naming file and line: unreadable, no record, a line with too few or
-/// too
-///         many values, a value that is no number, two columns of one name
-HistoryTable read_history(const std::filesystem::path& file);
+///   too many values, a value that is no number, two columns of one name
+Table read_table(const std::filesystem::path& file, LastLine last = LastLine::may_be_cut);
 
 /// The value of column `y` at `x0` of the ascending column `x`, linear between records and
 /// constant beyond the ends; NaN if the table has no row with both.
@@ -47,4 +54,4 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
 std::vector<double> moving_mean(const std::vector<double>& x, const std::vector<double>& y,
                                 double window);
 
-} // namespace mergel::apps
+} // namespace mergel::dem

@@ -1,0 +1,63 @@
+/// Curves in panels: their axes, their strokes and the key that tells them apart.
+#pragma once
+
+#include "apps/view_page.h"
+
+#include <string>
+#include <vector>
+
+namespace mergel::apps {
+
+struct Range {
+  double low = 0.0, high = 0.0; ///< always holds 0
+};
+
+/// Of the finite values.
+Range range(const std::vector<double>& values);
+Range range(const Range& a, const Range& b); ///< holds both
+
+/// An axis from the lowest to the highest value, widened to a round number.
+Axis round_axis(const Range& r, const std::string& title);
+
+/// A unit of convenient size: SI base unit with a prefix.
+struct Unit {
+  double size = 1.0; ///< [SI base unit]
+  std::string name;  ///< "mm"
+};
+
+/// The unit in which `largest` [base] is 0.5 to 500; the base itself for 0.
+/// @param base such as "m", "N", "N m", "rad"
+Unit convenient_unit(double largest, const std::string& base);
+
+/// One curve, broken where a value is missing.
+void draw_curve(Page& page, const Panel& panel, const std::vector<double>& x,
+                const std::vector<double>& y, const Stroke& stroke);
+
+/// Stroke number k of a picture with many curves. Colours differ in lightness and each has
+/// its dashes, so that grey print and curves that lie on each other can still be read.
+Stroke distinct_stroke(std::size_t k);
+
+struct KeyEntry {
+  std::string words;
+  Stroke stroke;
+  bool has_dot = false; ///< a marker on the line
+};
+
+/// Height of a key in a box of this width.
+double key_height(const Page& page, const std::vector<KeyEntry>& entries, double width);
+
+/// The key, from the upper left corner of the box, in as many columns as fit.
+void draw_key(Page& page, const Box& box, const std::vector<KeyEntry>& entries);
+
+/// The marker of has_dot: a ring around white.
+void draw_marker(Page& page, const Pixel& at, const Colour& colour);
+
+/// Boxes of panels for the whole page, two in a row, with room for their titles; the key
+/// goes above them, or into the last place of the grid if that is free and large enough.
+struct Grid {
+  std::vector<Box> boxes;
+  Box key;
+};
+Grid grid(const Page& page, std::size_t n_panels, const std::vector<KeyEntry>& entries);
+
+} // namespace mergel::apps

@@ -1,0 +1,47 @@
+/// Words on curves, where there is room for them.
+#pragma once
+
+#include "apps/view_page.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace mergel::apps {
+
+/// Labels of the curves of one panel.
+///
+/// A label stands in a gap of its curve, as far as can be from all other curves, labels and
+/// points to avoid; where the curve is too crowded it stands just outside of it, seen from
+/// the origin, if no other curve is nearer there; else it is left out.
+class CurveLabels {
+public:
+  /// @param box    that labels keep inside of
+  /// @param origin that the curves go around
+  CurveLabels(Page& page, const Box& box, const Pixel& origin);
+
+  void avoid(const Pixel& point) { crowd_.push_back(point); }
+
+  /// A curve that is drawn already. Add all before the first label.
+  std::size_t add_curve(std::vector<Pixel> points);
+
+  void write(std::size_t curve, const std::string& words);
+
+private:
+  struct Place {
+    Pixel at;
+    double room = -1.0; ///< to the nearest thing to keep clear of; negative: no place
+  };
+
+  double room_at(const Pixel& p, std::size_t curve) const;
+  Place freest(const std::vector<Pixel>& places, std::size_t curve, double half) const;
+  std::vector<Pixel> outside(std::size_t curve, double half) const;
+
+  Page& page_;
+  Box box_;
+  Pixel origin_;
+  std::vector<Pixel> crowd_;
+  std::vector<std::vector<Pixel>> curves_;
+};
+
+} // namespace mergel::apps
