@@ -148,7 +148,9 @@ struct CaseFile::Impl {
   {
     std::vector<std::string> names;
     for (const Key& key : keys)
-      if (key.section == section) names.push_back(key.name);
+      if (key.section == section &&
+          std::find(names.begin(), names.end(), key.name) == names.end())
+        names.push_back(key.name);
     return names;
   }
 

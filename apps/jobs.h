@@ -17,7 +17,9 @@ struct JobOptions {
   bool overwrite = false;       ///< an earlier run there may be replaced
 };
 
-void help_pile(std::ostream& out); ///< every key of the job
+void help_bond(std::ostream& out); ///< every key of the job
+int run_bond(const JobOptions& options);
+void help_pile(std::ostream& out);
 int run_pile(const JobOptions& options);
 void help_sample(std::ostream& out);
 int run_sample(const JobOptions& options);
@@ -29,7 +31,8 @@ struct Job {
   int (*run)(const JobOptions&); ///< returns the exit code; MPI is up
 };
 
-inline constexpr std::array<Job, 2> jobs{{
+inline constexpr std::array<Job, 3> jobs{{
+    {"bond", "Drive one bonded pair of spheres along any path.", help_bond, run_bond},
     {"pile", "Install a pile in a coupled chamber of rock.", help_pile, run_pile},
     {"sample", "Make a specimen and write it to a file for later runs.", help_sample,
      run_sample},

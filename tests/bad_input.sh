@@ -179,5 +179,41 @@ refuse "sample that --overwrite would remove" \
   'output folder tiny: --overwrite would remove .*sample\.h5, which this run reads\. .*' \
   pile good.prm "${tiny[@]}" --set "Specimen/file=tiny/sample.h5" --output tiny --overwrite
 
+## one bond
+cp "$root/apps/cases/bond_fig5a.prm" bond.prm
+path='bond\.prm:[0-9]+: Loading/path = .*'
+corner() { printf '%s\n' "$@" >bond_fig5a.csv; }
+head='u_n [m],u_s [m],theta [rad]'
+refuse "path that is not there" "$path: .*bond_fig5a\.csv: cannot be read\. .*" bond bond.prm --output out
+corner 'u_n [mm],u_s [m],theta [rad]' 0.1,0,0
+refuse "path in another unit" "$path: .*no column 'u_n \[m\]'; there are 'u_n \[mm\]', .*" bond bond.prm --output out
+corner 'u_n [m],theta [rad]' 1e-4,0
+refuse "path without a column" "$path: .*no column 'u_s \[m\]'; .*" bond bond.prm --output out
+corner "$head"
+refuse "path without a corner" "$path: .*holds no record below its headings\." bond bond.prm --output out
+corner "$head" 0,0,0
+refuse "path that does not move" "$path: .*the only corner is the start itself.*" bond bond.prm --output out
+corner "$head" 1e-4,0,0 2e-4,nan,0
+refuse "path with nan" "$path: .*:3: every motion must be a finite number" bond bond.prm --output out
+corner "$head" 1e-4,0,0 2e-4,,0
+refuse "path with an empty value" "$path: .*:3: every motion must be a finite number" bond bond.prm --output out
+corner "$head" 1e-4,0
+refuse "path with a short line" "$path: .*:2: 2 values under 3 headings\." bond bond.prm --output out
+corner "$head" 1e-4,0,0 -20e-3,0,0
+refuse "path through the spheres" "$path: .*:3: u_n = -0\.02 m makes the spheres overlap .*at least -0\.0182 m" bond bond.prm --output out
+corner "$head" 1e-4,4,0
+refuse "path in metres by mistake" "$path: .*:2: a displacement exceeds 1000 radii: .*" bond bond.prm --output out --set "Spheres/radius=1 mm"
+cp "$root/apps/cases/bond_fig5a.csv" .
+refuse "zero stiffness ratio" '--set Bond/stiffness ratio = 0: must satisfy .*> 0.*' \
+  bond bond.prm --output out --set "Bond/stiffness ratio=0"
+refuse "no steps" '--set Loading/steps per leg = 0: must satisfy .*' bond bond.prm --output out \
+  --set "Loading/steps per leg=0"
+refuse "a key of another law" 'bond\.prm:[0-9]+: Bond/compressive strength = 10 MPa: is a key of `bond law` = damage; .*' \
+  bond bond.prm --output out --set "Bond/bond law=parallel"
+refuse "a key of another mode" '--set Loading/rotation = 1 rad: is a key of `mode` = .*; here it is path\. .*' \
+  bond bond.prm --output out --set "Loading/rotation=1 rad"
+refuse "unknown loading" '--set Loading/mode = tensoin: must be one of .*Did you mean "tension"\?' \
+  bond bond.prm --output out --set "Loading/mode=tensoin"
+
 echo "bad input: $((n_checks - n_failed)) of $n_checks refused as they should be"
 [ "$n_failed" -eq 0 ]

@@ -1,0 +1,307 @@
+/// mergel bond: one bonded pair of spheres along any path of u_n, u_s and theta.
+#include "apps/jobs.h"
+#include "apps/material_keys.h"
+#include "apps/output_folder.h"
+#include "dem/driven_pair.h"
+#include "dem/io/atomic_file.h"
+#include "dem/io/history.h"
+#include "dem/io/table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+namespace mergel::apps {
+
+namespace {
+
+/// Motions beyond any use: a slip of units.
+constexpr double most_radii = 1e3, most_radians = 1e3;
+
+struct BondCase {
+  double radius = unset;     ///< of the first sphere [m]
+  double radius_ratio = 1.0; ///< of the second sphere to the first
+  double S = 1.0;            ///< upscaling ratio [-]
+  double gap = 0.0;          ///< at which they are bonded [m]
+  BondKeys bond;
+  dem::LinearMaterial contact;
+  std::string mode = "path";
+  std::filesystem::path path;
+  dem::RelativeMotion reach{unset, unset, unset}; ///< at the end of a named loading
+  int steps_per_leg = 1000;
+
+  double smaller_radius() const { return radius * std::min(1.0, radius_ratio); }
+};
+
+/// The loadings of the paper's Fig. 3 by name; which motions each has, and which way u_n goes.
+struct Loading {
+  const char* name;
+  double normal; ///< 1 tension, -1 compression, 0 none
+  bool shear, bending;
+};
+constexpr Loading loadings[] = {
+    {"tension", 1.0, false, false},
+    {"compression", -1.0, false, false},
+    {"shear", 0.0, true, false},
+    {"bending", 0.0, false, true},
+    {"tension-shear", 1.0, true, false},
+    {"compression-shear", -1.0, true, false},
+    {"tension-bending", 1.0, false, true},
+    {"compression-bending", -1.0, false, true},
+    {"shear-bending", 0.0, true, true},
+    {"tension-shear-bending", 1.0, true, true},
+    {"compression-shear-bending", -1.0, true, true},
+};
+
+template <class Has>
+std::vector<std::string> names_with(Has&& has)
+{
+  std::vector<std::string> names;
+  for (const Loading& l : loadings)
+    if (has(l)) names.emplace_back(l.name);
+  return names;
+}
+
+void declare_spheres(CaseFile& file, BondCase& c)
+{
+  const auto section = file.section("Spheres");
+  file.quantity("radius", c.radius, "m", positive, "Of the first sphere.", "mm");
+  file.number("radius ratio", c.radius_ratio, between(1e-3, 1e3),
+              "Radius of the second sphere over that of the first.");
+  file.number("upscaling ratio", c.S, positive,
+              "S of both: softening displacement and activation gap scale with it, Eq. 8.");
+  file.quantity("initial gap", c.gap, "m", non_negative,
+                "Between the surfaces when they are bonded; not scaled with S.", "mm");
+}
+
+void declare_loading(CaseFile& file, BondCase& c)
+{
+  const auto section = file.section("Loading");
+  std::vector<std::string> modes{"path"};
+  for (const Loading& l : loadings) modes.emplace_back(l.name);
+  file.choice(
+      "mode", c.mode, modes,
+      "Along the corners of a file, or in proportion to the motions below (Fig. 3).");
+  {
+    const auto only = file.only_if("mode", {"path"});
+    file.path("path", c.path,
+              "CSV file of corner points after the start at rest; its first line is "
+              "u_n [m],u_s [m],theta [rad].",
+              Default::none);
+  }
+  {
+    const auto only =
+        file.only_if("mode", names_with([](const Loading& l) { return l.normal != 0.0; }));
+    file.quantity("normal displacement", c.reach.u_n, "m", positive,
+                  "Reached at the end; apart in tension, together in compression.", "mm");
+  }
+  {
+    const auto only =
+        file.only_if("mode", names_with([](const Loading& l) { return l.shear; }));
+    file.quantity("shear displacement", c.reach.u_s, "m", positive, "Reached at the end.",
+                  "mm");
+  }
+  {
+    const auto only =
+        file.only_if("mode", names_with([](const Loading& l) { return l.bending; }));
+    file.quantity("rotation", c.reach.theta, "rad", positive, "Reached at the end.");
+  }
+  file.integer("steps per leg", c.steps_per_leg, between(1.0, 1e7),
+               "Equal steps from corner to corner; one line of history.csv each.");
+}
+
+void declare(CaseFile& file, BondCase& c)
+{
+  declare_spheres(file, c);
+  declare(file, c.bond);
+  declare(file, c.contact);
+  declare_loading(file, c);
+}
+
+/// What is wrong with a corner, or "".
+std::string fault(const BondCase& c, const dem::RelativeMotion& at)
+{
+  const double r = c.smaller_radius();
+  if (!std::isfinite(at.u_n) || !std::isfinite(at.u_s) || !std::isfinite(at.theta))
+    return "every motion must be a finite number";
+  if (c.gap + at.u_n < -0.5 * r)
+    return "u_n = " + dem::shortest(at.u_n) +
+           " m makes the spheres overlap by more than half of the smaller radius: must be "
+           "at least " +
+           dem::shortest(-0.5 * r - c.gap) + " m";
+  if (std::abs(at.u_n) > most_radii * r || std::abs(at.u_s) > most_radii * r)
+    return "a displacement exceeds 1000 radii: is its unit m?";
+  if (std::abs(at.theta) > most_radians) return "theta exceeds 1000 rad: is its unit rad?";
+  return "";
+}
+
+/// Corner points of the path, the start at rest left out.
+std::vector<dem::RelativeMotion> corners(const CaseFile& file, const BondCase& c)
+{
+  std::vector<dem::RelativeMotion> path;
+  if (c.mode != "path") {
+    const Loading& l = *std::find_if(std::begin(loadings), std::end(loadings),
+                                     [&](const Loading& o) { return c.mode == o.name; });
+    const dem::RelativeMotion end{l.normal != 0.0 ? l.normal * c.reach.u_n : 0.0,
+                                  l.shear ? c.reach.u_s : 0.0,
+                                  l.bending ? c.reach.theta : 0.0};
+    if (const std::string wrong = fault(c, end); !wrong.empty())
+      file.refuse("Loading", "mode", wrong);
+    return {end};
+  }
+
+  dem::Table table;
+  try {
+    table = dem::read_table(c.path, dem::LastLine::whole);
+    const auto &u_n = table.column("u_n", "m"), &u_s = table.column("u_s", "m"),
+               &theta = table.column("theta", "rad");
+    for (std::size_t k = 0; k < table.n_rows; ++k) {
+      path.push_back({u_n[k], u_s[k], theta[k]});
+      if (const std::string wrong = fault(c, path.back()); !wrong.empty())
+        throw InputError(c.path.string() + ":" + std::to_string(table.lines[k]) + ": " +
+                         wrong);
+    }
+  } catch (const InputError& e) {
+    file.refuse("Loading", "path", e.what());
+  }
+  const dem::RelativeMotion& first = path.front();
+  if (first.u_n == 0.0 && first.u_s == 0.0 && first.theta == 0.0) path.erase(path.begin());
+  if (path.empty())
+    file.refuse("Loading", "path",
+                c.path.string() + ": the only corner is the start itself: nothing moves");
+  return path;
+}
+
+/// history.csv and what the closing summary says.
+class Record {
+public:
+  explicit Record(const std::filesystem::path& file) : history_(file, columns) {}
+
+  void add(const dem::DrivenPair& pair)
+  {
+    const dem::RelativeMotion& u = pair.motion();
+    const dem::DrivenPairReading r = pair.read();
+    history_.add({u.u_n, u.u_s, u.theta, r.N, r.V, r.M, r.D, r.f_n, r.f, r.u_p.u_n,
+                  r.u_p.u_s, r.u_p.theta, r.f_s, pair.work(), r.stored, pair.dissipated()});
+    tension = std::max(tension, r.N);
+    compression = std::max(compression, -r.N);
+    shear = std::max(shear, std::abs(r.V));
+    moment = std::max(moment, std::abs(r.M));
+    D = r.D;
+    const double error = std::abs(pair.work() - r.stored - pair.dissipated());
+    energy_scale_ = std::max(energy_scale_, std::max(r.stored, pair.dissipated()));
+    energy_error_ = std::max(energy_error_, error);
+    ++n_records;
+  }
+  /// Largest gap between work and its uses, as a share of the largest of these [-].
+  double energy_error() const
+  {
+    return energy_scale_ > 0.0 ? energy_error_ / energy_scale_ : 0.0;
+  }
+
+  double tension = 0.0, compression = 0.0, shear = 0.0, moment = 0.0, D = 0.0;
+  std::size_t n_records = 0;
+
+private:
+  inline static const std::vector<std::string> columns{
+      "u_n [m]",         "u_s [m]",         "theta [rad]",
+      "N [N]",           "V [N]",           "M [N.m]",
+      "D [-]",           "f_n [N]",         "yield function [-]",
+      "plastic u_n [m]", "plastic u_s [m]", "plastic theta [rad]",
+      "f_s [N]",         "work [J]",        "stored [J]",
+      "dissipated [J]"};
+  dem::History history_;
+  double energy_scale_ = 0.0, energy_error_ = 0.0;
+};
+
+void write_summary(const std::filesystem::path& file, const BondCase& c,
+                   const dem::SingleStrengths& strong, const Record& record,
+                   const dem::DrivenPair& pair)
+{
+  std::ostringstream out;
+  const auto number = [&](const char* name, double value, const char* end = ",\n") {
+    out << "  \"" << name << "\": " << dem::shortest(value) << end;
+  };
+  out << "{\n  \"bond law\": \""
+      << (c.bond.law == BondKeys::Law::damage ? "damage" : "parallel") << "\",\n";
+  number("tensile strength [N]", strong.tension);
+  if (std::isfinite(strong.compression))
+    number("compressive strength [N]", strong.compression);
+  number("shear strength [N]", strong.shear);
+  number("moment strength [N.m]", strong.moment);
+  number("largest tension [N]", record.tension);
+  number("largest compression [N]", record.compression);
+  number("largest shear force [N]", record.shear);
+  number("largest moment [N.m]", record.moment);
+  number("damage at the end [-]", record.D);
+  number("work [J]", pair.work());
+  number("dissipated [J]", pair.dissipated());
+  number("energy error [-]", record.energy_error());
+  number("steps [-]", static_cast<double>(record.n_records - 1), "\n");
+  out << "}\n";
+  dem::replace_file(file, out.str());
+}
+
+void print_summary(const std::filesystem::path& folder, const Record& record)
+{
+  std::cout.precision(5);
+  std::cout << "largest loads of the bond: tension " << record.tension << " N, compression "
+            << record.compression << " N, shear " << record.shear << " N, moment "
+            << record.moment << " N m; damage at the end " << record.D
+            << (record.D == 1.0 ? ", broken" : "")
+            << "\nenergy: work less stored and dissipated is at most "
+            << 100.0 * record.energy_error() << " % of these, in " << record.n_records - 1
+            << " steps\nresults: " << folder.string()
+            << " (history.csv, summary.json); pictures: mergel-view " << folder.string()
+            << "\n";
+}
+
+} // namespace
+
+void help_bond(std::ostream& out)
+{
+  CaseFile file;
+  BondCase c;
+  declare(file, c);
+  file.help(out);
+}
+
+int run_bond(const JobOptions& options)
+{
+  CaseFile file;
+  BondCase c;
+  declare(file, c);
+  file.read(options.case_file, options.set);
+  const auto path = corners(file, c);
+  const OutputFolder folder(options.output,
+                            options.overwrite ? Earlier::overwrite : Earlier::keep);
+  std::vector<std::filesystem::path> inputs{options.case_file};
+  if (!c.path.empty()) inputs.push_back(c.path);
+  folder.commit(inputs);
+  file.write_resolved(folder.path() / "resolved.prm");
+
+  const dem::BondLaw law = c.bond.chosen();
+  dem::DrivenPair pair({c.radius, c.radius * c.radius_ratio, c.S, c.gap, {law, c.contact}});
+  Record record(folder.path() / "history.csv");
+  record.add(pair);
+  for (const dem::RelativeMotion& corner : path) {
+    const dem::RelativeMotion from = pair.motion();
+    for (int k = 1; k <= c.steps_per_leg; ++k) {
+      const double t = static_cast<double>(k) / c.steps_per_leg;
+      const auto between = [t](double a, double b) {
+        return t < 1.0 ? a + t * (b - a) : b;
+      };
+      pair.move_to({between(from.u_n, corner.u_n), between(from.u_s, corner.u_s),
+                    between(from.theta, corner.theta)});
+      record.add(pair);
+    }
+  }
+  const dem::SingleStrengths strong = std::visit(
+      [&](const auto& bond) { return single_strengths(bond, pair.shape()); }, law);
+  write_summary(folder.path() / "summary.json", c, strong, record, pair);
+  print_summary(folder.path(), record);
+  return 0;
+}
+
+} // namespace mergel::apps
