@@ -241,7 +241,8 @@ void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell
     Vec3 r = j.x - i.x;
     if (is_periodic) r += cell.offset(pair.shift);
     const double reach = i.R + j.R + material.g_a * (0.5 * (i.S + j.S));
-    if (r.squaredNorm() < reach * reach * (1.0 + 1e-12))
+    if (!(r.squaredNorm() >=
+          reach * reach * (1.0 + 1e-12))) // a NaN goes through, and is met
       touching.push_back(c);
     else if (contacts.shear[c].f_s != Vec3::Zero()) // opened in this step
       touching.push_back(c);

@@ -54,6 +54,11 @@ void drift(Particles& p, double dt)
           "particle " + std::to_string(p.id[i]) + " moves " +
           std::to_string(dx.norm() / b.R) +
           " radii in one step (at most 0.05): lower `Motion/time step safety`");
+    if (!(b.omega.squaredNorm() * dt * dt <= 0.05 * 0.05))
+      throw NumericalError(
+          "particle " + std::to_string(p.id[i]) + " turns by " +
+          std::to_string(b.omega.norm() * dt) +
+          " rad in one step (at most 0.05): lower `Motion/time step safety`");
     b.x += dx;
   }
 }

@@ -27,8 +27,8 @@ struct KickWork {
 void kick(Particles& p, const Motion& motion, double dt, KickWork& work);
 
 /// x^{n+1} = x^n + dt v^{n+1/2}.
-/// @throws NumericalError when a particle moves more than R/20 in the step, or is not a
-///   number
+/// @throws NumericalError when a particle moves more than R/20 or turns more than 0.05 rad
+///   in the step, or is not a number
 void drift(Particles& p, double dt);
 
 /// Set the loads to zero.

@@ -77,3 +77,33 @@ TEST_CASE("Without any stiffness there is no limit to the step", "[unit][dem]")
   CHECK(time_step(sums, s.p, 0.7, {Vec3::Zero(), 0.7, false}) ==
         std::numeric_limits<double>::infinity());
 }
+
+TEST_CASE("A grain that spins more than 0.05 rad in a step stops the run, and names itself",
+          "[unit][dem]")
+{
+  Particles p;
+  p.add(sphere({0, 0, 0}, 1e-3));
+  p.body[0].omega = {0.0, 499.0, 0.0};
+  CHECK_NOTHROW(drift(p, 1e-4));
+  p.body[0].omega = {0.0, 501.0, 0.0};
+  CHECK_THROWS_WITH(drift(p, 1e-4), Catch::Contains("particle 0 turns by 0.0501"));
+  p.body[0].omega.x() = std::nan("");
+  CHECK_THROWS_AS(drift(p, 1e-4), mergel::NumericalError);
+}
+
+TEST_CASE("A place that is not a number stops the run, contacts alone included",
+          "[unit][dem]")
+{
+  // Two spheres in contact, without a bond: the filter of those that touch must not drop it.
+  Scene s;
+  s.material.contact = contact(50e6, 2.0, 0.3, 1e-3);
+  s.p.add(sphere({0, 0, 0}, 0.03));
+  s.p.add(sphere({0.06, 0, 0}, 0.03));
+  s.touch({{0, 1}});
+  s.p.body[1].x.y() = std::nan("");
+  const auto two_steps = [&] {
+    s.start(1e-6);
+    s.step(1e-6);
+  };
+  CHECK_THROWS_AS(two_steps(), mergel::NumericalError);
+}
