@@ -3,13 +3,15 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <iosfwd>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace mergel::apps {
 
-/// What the command line says about a run.
+/// What the command line says about the run of a case.
 struct JobOptions {
   std::filesystem::path case_file;
   std::vector<std::string> set; ///< "Section/key=value", in the order given
@@ -17,6 +19,8 @@ struct JobOptions {
   bool overwrite = false;       ///< an earlier run there may be replaced
 };
 
+void help_bench(std::ostream& out); ///< every option of the job
+std::function<int()> read_bench(const std::vector<std::string>& arguments);
 void help_bond(std::ostream& out); ///< every key of the job
 int run_bond(const JobOptions& options);
 void help_pile(std::ostream& out);
@@ -24,14 +28,23 @@ int run_pile(const JobOptions& options);
 void help_sample(std::ostream& out);
 int run_sample(const JobOptions& options);
 
+/// Returns the exit code; MPI is up.
+using RunCase = int (*)(const JobOptions&);
+/// Reads the arguments of a job that has no case file and returns what runs it, later, when
+/// MPI is up. @throws InputError, or CLI::CallForHelp
+using ReadArguments = std::function<int()> (*)(const std::vector<std::string>&);
+
 struct Job {
   const char* name;
   const char* sentence;
   void (*help)(std::ostream&);
-  int (*run)(const JobOptions&); ///< returns the exit code; MPI is up
+  std::variant<RunCase, ReadArguments> run;
+
+  bool reads_case() const { return std::holds_alternative<RunCase>(run); }
 };
 
-inline constexpr std::array<Job, 3> jobs{{
+inline constexpr std::array<Job, 4> jobs{{
+    {"bench", "Measure what a step costs on this machine.", help_bench, read_bench},
     {"bond", "Drive one bonded pair of spheres along any path.", help_bond, run_bond},
     {"pile", "Install a pile in a coupled chamber of rock.", help_pile, run_pile},
     {"sample", "Make a specimen and write it to a file for later runs.", help_sample,

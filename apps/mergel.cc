@@ -1,5 +1,6 @@
 /// The program: reads the command line, starts MPI, runs one job.
 
+#include "apps/command_line.h"
 #include "apps/jobs.h"
 #include "apps/run_guard.h"
 #include "apps/words.h"
@@ -9,8 +10,10 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -22,7 +25,7 @@ void print_help(std::ostream& out)
 {
   out << "mergel: coupled DEM-FEM solver for weak, porous, bonded rock.\n\n"
          "usage: mergel <job> CASE.prm [--set \"Section/key=value\"]... [--output DIR] "
-         "[--overwrite]\n\njobs:\n";
+         "[--overwrite]\n       mergel bench [options]\n\njobs:\n";
   for (const Job& job : jobs) {
     std::string name = job.name;
     name.resize(std::max<std::size_t>(name.size(), 8), ' ');
@@ -37,8 +40,13 @@ void print_help(std::ostream& out)
 
 void print_job_help(const Job& job, std::ostream& out)
 {
-  out << "mergel " << job.name << ": " << job.sentence << "\n\nusage: mergel " << job.name
-      << " CASE.prm [options]\n"
+  out << "mergel " << job.name << ": " << job.sentence << "\n\nusage: mergel " << job.name;
+  if (!job.reads_case()) {
+    out << " [options]\n";
+    job.help(out);
+    return;
+  }
+  out << " CASE.prm [options]\n"
          "  --set \"Section/key=value\"  set a key over the case file; may be repeated\n"
          "  --output DIR               results folder; default results/<name of the case>\n"
          "  --overwrite                replace an earlier run in that folder\n\n"
@@ -61,7 +69,7 @@ const Job& find_job(const std::string& name)
 }
 
 /// @throws InputError, or CLI::CallForHelp
-JobOptions parse_job(const Job& job, std::vector<std::string> arguments)
+JobOptions parse_case(const Job& job, std::vector<std::string> arguments)
 {
   JobOptions options;
   CLI::App app;
@@ -69,18 +77,10 @@ JobOptions parse_job(const Job& job, std::vector<std::string> arguments)
   app.add_option("--set", options.set)->expected(1)->take_all();
   app.add_option("--output", options.output);
   app.add_flag("--overwrite", options.overwrite);
-  const std::string see = ". See mergel " + std::string(job.name) + " --help.";
-  try {
-    std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
-    app.parse(std::move(arguments));
-  } catch (const CLI::CallForHelp&) {
-    throw;
-  } catch (const CLI::ParseError& error) {
-    throw InputError("mergel " + std::string(job.name) + ": " + in_one_line(error.what()) +
-                     see);
-  }
+  const std::string command = "mergel " + std::string(job.name);
+  parse(app, command, std::move(arguments));
   require(!options.case_file.empty(),
-          "mergel " + std::string(job.name) + ": no case file is given" + see);
+          command + ": no case file is given. See " + command + " --help.");
   if (options.output.empty())
     options.output = std::filesystem::path("results") / options.case_file.stem();
   return options;
@@ -103,9 +103,15 @@ int run(int argc, char** argv)
     throw InputError("mergel: \"" + first + "\" stands before the job. See mergel --help.");
 
   const Job& job = find_job(first);
-  JobOptions options;
+  const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+  std::function<int()> start;
   try {
-    options = parse_job(job, {arguments.begin() + 1, arguments.end()});
+    if (job.reads_case())
+      start = [run = std::get<RunCase>(job.run), options = parse_case(job, rest)] {
+        return run(options);
+      };
+    else
+      start = std::get<ReadArguments>(job.run)(rest);
   } catch (const CLI::CallForHelp&) {
     print_job_help(job, std::cout);
     return exit_done;
@@ -118,7 +124,7 @@ int run(int argc, char** argv)
     require(n_ranks == 1, "mergel runs on one rank in this version; started on " +
                               std::to_string(n_ranks) +
                               ". Start it without mpirun, or with mpirun -n 1.");
-    return job.run(options);
+    return start();
   });
 }
 

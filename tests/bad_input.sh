@@ -200,7 +200,7 @@ refuse "path with an empty value" "$path: .*:3: every motion must be a finite nu
 corner "$head" 1e-4,0
 refuse "path with a short line" "$path: .*:2: 2 values under 3 headings\." bond bond.prm --output out
 corner "$head" 1e-4,0,0 -20e-3,0,0
-refuse "path through the spheres" "$path: .*:3: u_n = -0\.02 m makes the spheres overlap .*at least -0\.0182 m" bond bond.prm --output out
+refuse "path through the spheres" "$path: .*:3: u_n = -0\.02 m makes the spheres overlap .*at least -0\.01775 m" bond bond.prm --output out
 corner "$head" 1e-4,4,0
 refuse "path in metres by mistake" "$path: .*:2: a displacement exceeds 1000 radii: .*" bond bond.prm --output out --set "Spheres/radius=1 mm"
 cp "$root/apps/cases/bond_fig5a.csv" .
@@ -214,6 +214,12 @@ refuse "a key of another mode" '--set Loading/rotation = 1 rad: is a key of `mod
   bond bond.prm --output out --set "Loading/rotation=1 rad"
 refuse "unknown loading" '--set Loading/mode = tensoin: must be one of .*Did you mean "tension"\?' \
   bond bond.prm --output out --set "Loading/mode=tensoin"
+
+## the bench
+refuse "unknown workload" 'mergel bench: --workload = "W3": must be W1, W2 or all.*' bench --workload W3
+refuse "too few particles" 'mergel bench: --particles = 10: must lie in 200 to 2e7.*' bench --particles 10
+refuse "no steps to time" 'mergel bench: --steps.*must be at least one block of at least one step.*' bench --steps -3
+refuse "yielding without bonds" 'mergel bench: --yielding: only W1 has bonds\. Add --workload W1.*' bench --yielding 0.1
 
 echo "bad input: $((n_checks - n_failed)) of $n_checks refused as they should be"
 [ "$n_failed" -eq 0 ]

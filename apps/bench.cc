@@ -1,0 +1,385 @@
+/// mergel bench: what a step costs on this machine, part by part; tests/bench says of what.
+#include "apps/command_line.h"
+#include "apps/jobs.h"
+#include "apps/workloads.h"
+#include "dem/io/atomic_file.h"
+#include "dem/io/history.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <utility>
+
+namespace mergel::apps {
+
+namespace {
+
+/// What the command line says.
+struct BenchOptions {
+  std::vector<Workload> workloads{Workload::bonded_block, Workload::frictional_packing};
+  WorkloadSpec spec; ///< its workload and size are set for each
+  long particles = 50000, steps = 1000, repeat = 5; // signed: a minus must not wrap around
+  std::filesystem::path output;                     ///< may be empty
+  std::filesystem::path block;                      ///< may be empty
+};
+
+const std::map<std::string, std::vector<Workload>> workload_names{
+    {"W1", {Workload::bonded_block}},
+    {"W2", {Workload::frictional_packing}},
+    {"all", {Workload::bonded_block, Workload::frictional_packing}}};
+
+void declare(CLI::App& app, BenchOptions& o)
+{
+  app.add_option("--workload", "W1, W2 or all, the default")
+      ->each([&o](const std::string& name) {
+        const auto found = workload_names.find(name);
+        require(found != workload_names.end(),
+                "mergel bench: --workload = " + in_quotes(name) +
+                    ": must be W1, W2 or all");
+        o.workloads = found->second;
+      })
+      ->expected(1);
+  app.add_option("--particles", o.particles, "spheres; default 50000");
+  app.add_option("--steps", o.steps, "timed steps; default 1000");
+  app.add_option("--repeat", o.repeat, "equal blocks of them, timed apart; default 5");
+  app.add_option("--seed", o.spec.seed, "of the workload; default 1");
+  app.add_option("--yielding", o.spec.yielding,
+                 "share of the bonds of W1 that yield in a step, 0 to 0.5; default 0");
+  app.add_option("--output", o.output, "CSV file that gets a line a workload; may exist");
+  app.add_option(
+      "--write-block", o.block,
+      "text file that gets the spheres and bonds of W1, for another code; no run");
+}
+
+WorkloadSpec spec_of(const BenchOptions& o, Workload w)
+{
+  WorkloadSpec spec = o.spec;
+  spec.workload = w;
+  spec.n_particles = static_cast<std::size_t>(o.particles);
+  return spec;
+}
+
+void check(const BenchOptions& o)
+{
+  require(o.repeat >= 1 && o.steps >= o.repeat,
+          "mergel bench: --steps = " + std::to_string(o.steps) +
+              ", --repeat = " + std::to_string(o.repeat) +
+              ": must be at least one block of at least one step");
+  require(o.particles > 0, "mergel bench: --particles must be positive");
+  for (const Workload w : o.workloads) spec_of(o, w).check();
+}
+
+/// Where the time of a step goes [ns], over the particles and the steps.
+struct Costs {
+  double least = 0.0, median = 0.0, most = 0.0; ///< of the blocks
+  dem::StepTimes parts;                         ///< mean over all blocks
+  double mean = 0.0;
+};
+
+/// What one workload showed.
+struct Figures {
+  Costs ns;
+  std::size_t n_steps = 0, n_particles = 0, n_bonds = 0, n_candidates = 0, n_contacts = 0;
+  std::size_t n_rebuilds = 0, n_broken = 0, n_yielded = 0;
+  double bytes = 0.0;      ///< of the containers
+  double peak_bytes = 0.0; ///< resident, of the process so far
+  std::uint64_t checksum = 0;
+};
+
+template <class T>
+double bytes_of(const std::vector<T>& v)
+{
+  return static_cast<double>(v.capacity() * sizeof(T));
+}
+
+/// Of everything that lives from step to step.
+double bytes_of(const dem::Rock& rock)
+{
+  const dem::Particles& p = rock.particles;
+  double bytes = bytes_of(p.body) + bytes_of(p.load) + bytes_of(p.id) + bytes_of(p.n_bonds);
+  bytes += bytes_of(rock.bonds.pairs) + bytes_of(rock.bonds.blocks);
+  bytes += bytes_of(rock.contacts.pairs) + bytes_of(rock.contacts.shear);
+  bytes += static_cast<double>(p.size() * sizeof(dem::Vec3)); // where the list was built
+  return bytes;
+}
+
+double peak_resident_bytes()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss); // Linux counts kilobytes
+}
+
+Costs run_blocks(WorkingRock& working, std::size_t steps_a_block, std::size_t n_blocks)
+{
+  dem::Rock& rock = working.rock;
+  rock.times = {};
+  const double n = static_cast<double>(rock.particles.size() * steps_a_block);
+  std::vector<double> blocks;
+  for (std::size_t b = 0; b < n_blocks; ++b) {
+    const double start = dem::wall_clock();
+    for (std::size_t k = 0; k < steps_a_block; ++k) working.step();
+    blocks.push_back(1e9 * (dem::wall_clock() - start) / n);
+  }
+  Costs c;
+  for (const double ns : blocks) c.mean += ns / static_cast<double>(n_blocks);
+  c.parts = rock.times;
+  for (double* part :
+       {&c.parts.motion, &c.parts.lists, &c.parts.bonds, &c.parts.contacts, &c.parts.walls})
+    *part *= 1e9 / (n * static_cast<double>(n_blocks));
+  std::sort(blocks.begin(), blocks.end());
+  c.least = blocks.front();
+  c.most = blocks.back();
+  c.median = 0.5 * (blocks[(n_blocks - 1) / 2] + blocks[n_blocks / 2]);
+  return c;
+}
+
+Figures measure(const WorkloadSpec& spec, std::size_t steps_a_block, std::size_t n_blocks)
+{
+  WorkingRock working = make_workload(spec);
+  constexpr int steps_to_warm_up = 20;
+  for (int k = 0; k < steps_to_warm_up; ++k) working.step();
+
+  const dem::Rock& rock = working.rock;
+  const std::size_t rebuilds = rock.list.n_builds(), broken = rock.losses.broken,
+                    yielded = rock.losses.yielded;
+  Figures f;
+  f.ns = run_blocks(working, steps_a_block, n_blocks);
+  f.n_steps = steps_a_block * n_blocks;
+  f.n_particles = rock.particles.size();
+  f.n_bonds = rock.bonds.size();
+  f.n_candidates = rock.contacts.pairs.size();
+  f.n_contacts = count_contacts(rock);
+  f.n_rebuilds = rock.list.n_builds() - rebuilds;
+  f.n_broken = rock.losses.broken - broken;
+  f.n_yielded = rock.losses.yielded - yielded;
+  f.bytes = bytes_of(rock);
+  f.peak_bytes = peak_resident_bytes();
+  f.checksum = checksum(rock.particles);
+  return f;
+}
+
+/// Best rate of a[i] = b[i] + s c[i] on arrays far beyond any cache, three numbers an
+/// element [byte/s]. Source: McCalpin (1995), STREAM.
+double triad_rate()
+{
+  constexpr std::size_t n = std::size_t{1} << 24;
+  constexpr int n_runs = 7;
+  std::vector<double> a(n, 0.0), b(n, 1.0), c(n, 2.0);
+  double best = 0.0;
+  for (int run = 1; run <= n_runs; ++run) {
+    const double s = run, start = dem::wall_clock();
+    for (std::size_t i = 0; i < n; ++i) a[i] = b[i] + s * c[i];
+    const double seconds = dem::wall_clock() - start;
+    if (a[n / 2] != 1.0 + 2.0 * s) throw std::logic_error("triad_rate: a wrong sum");
+    best = std::max(best, static_cast<double>(3 * n * sizeof(double)) / seconds);
+  }
+  return best;
+}
+
+/// One figure: its name and unit, in the CSV file and on the screen.
+struct Figure {
+  const char* name;
+  const char* unit;
+  double value;
+  int digits; ///< after the point
+};
+
+double ratio(double a, double b)
+{
+  return b > 0.0 ? a / b : 0.0;
+}
+
+double ratio(std::size_t a, std::size_t b)
+{
+  return ratio(static_cast<double>(a), static_cast<double>(b));
+}
+
+/// All figures that are numbers.
+std::vector<Figure> figures(const WorkloadSpec& spec, const Figures& f)
+{
+  const bool is_bonded = spec.workload == Workload::bonded_block;
+  const double pairs = ratio(is_bonded ? f.n_bonds : f.n_contacts, f.n_particles);
+  const auto n = static_cast<double>(f.n_particles);
+  const dem::StepTimes& part = f.ns.parts;
+  const auto share = [&](double ns) { return 100.0 * ratio(ns, f.ns.mean); };
+  return {
+      {"time per particle-step", "ns", f.ns.median, 1},
+      {"time per particle-step, least", "ns", f.ns.least, 1},
+      {"time per particle-step, most", "ns", f.ns.most, 1},
+      {is_bonded ? "time per bond-step" : "time per contact-step", "ns",
+       ratio(f.ns.median, pairs), 1},
+      {"motion", "%", share(part.motion), 1},
+      {"lists", "%", share(part.lists), 1},
+      {"bonds", "%", share(part.bonds), 1},
+      {"contacts", "%", share(part.contacts), 1},
+      {"walls", "%", share(part.walls), 1},
+      {"rebuilds", "-", static_cast<double>(f.n_rebuilds), 0},
+      {"bonds per particle", "-", ratio(f.n_bonds, f.n_particles), 3},
+      {"contacts per particle", "-", ratio(f.n_contacts, f.n_particles), 3},
+      {"unbonded candidates per particle", "-", ratio(f.n_candidates, f.n_particles), 3},
+      {"bonds broken", "-", static_cast<double>(f.n_broken), 0},
+      {"bonds yielding in a step", "%", 100.0 * ratio(f.n_yielded, f.n_bonds * f.n_steps),
+       2},
+      {"memory per particle", "byte", f.bytes / n, 0},
+      {"peak memory per particle, building included", "byte", f.peak_bytes / n, 0},
+  };
+}
+
+const char* name_of(Workload w)
+{
+  return w == Workload::bonded_block ? "W1" : "W2";
+}
+
+std::string hexadecimal(std::uint64_t value)
+{
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+  return text;
+}
+
+void print_figure(const Figure& f)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*f", f.digits, f.value);
+  std::string name = f.name;
+  name.resize(std::max<std::size_t>(name.size(), 45), ' ');
+  std::cout << "  " << name << text << (f.unit[0] == '-' ? "" : " ")
+            << (f.unit[0] == '-' ? "" : f.unit) << '\n';
+}
+
+void print(const WorkloadSpec& spec, const Figures& f)
+{
+  std::cout << name_of(spec.workload) << ": " << f.n_particles << " particles, "
+            << f.n_steps << " steps, seed " << spec.seed << ", 1 rank\n";
+  for (const Figure& figure : figures(spec, f)) print_figure(figure);
+  std::cout << "  checksum of x, v, omega                      " << hexadecimal(f.checksum)
+            << std::endl;
+}
+
+/// A line of the CSV file and the header over it.
+struct Line {
+  std::string header, text;
+};
+
+Line csv_line(const WorkloadSpec& spec, const Figures& f, double triad)
+{
+  std::ostringstream header, text;
+  header << "workload,particles [-],ranks [-],steps [-],seed [-]";
+  text << name_of(spec.workload) << ',' << f.n_particles << ",1," << f.n_steps << ','
+       << spec.seed;
+  for (const Figure& figure : figures(spec, f)) {
+    std::string name = figure.name;
+    if (name.starts_with("time per") && name.find("particle") == std::string::npos)
+      name = "time per pair-step"; // one header for both workloads
+    std::erase(name, ',');
+    header << ',' << name << " [" << figure.unit << ']';
+    text << ',' << dem::shortest(figure.value);
+  }
+  header << ",triad [GB/s],checksum";
+  text << ',' << dem::shortest(1e-9 * triad) << ',' << hexadecimal(f.checksum);
+  return {header.str(), text.str()};
+}
+
+/// The lines that the file has, without newlines; none if there is no file.
+/// @throws InputError when it is not a table of this job
+std::vector<std::string> earlier_lines(const std::filesystem::path& file,
+                                       const std::string& header)
+{
+  std::vector<std::string> lines;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  require(lines.empty() ? !std::filesystem::exists(file) : lines.front() == header,
+          "mergel bench: --output " + file.string() +
+              ": exists and is not a table of mergel bench of this version. Give another "
+              "name");
+  return lines;
+}
+
+void append(const std::filesystem::path& file, const std::vector<Line>& lines)
+{
+  const std::string& header = lines.front().header;
+  std::vector<std::string> all = earlier_lines(file, header);
+  if (all.empty()) all.push_back(header);
+  for (const Line& line : lines) all.push_back(line.text);
+  dem::replace_file(file, joined(all, "\n") + "\n");
+}
+
+/// Count of spheres and bonds and the step [s]; x, R, m, v of every sphere, SI; i and j of
+/// every bond, from 0.
+void write_block(const std::filesystem::path& file, const WorkingRock& working)
+{
+  const dem::Rock& rock = working.rock;
+  std::ostringstream out;
+  out << rock.particles.size() << ' ' << rock.bonds.size() << ' '
+      << dem::shortest(working.dt) << '\n';
+  for (const dem::Body& b : rock.particles.body) {
+    for (const double value :
+         {b.x.x(), b.x.y(), b.x.z(), b.R, b.m, b.v.x(), b.v.y(), b.v.z()})
+      out << dem::shortest(value) << ' ';
+    out << '\n';
+  }
+  for (const dem::Pair& q : rock.bonds.pairs) out << q.i << ' ' << q.j << '\n';
+  dem::replace_file(file, out.str());
+}
+
+int run_bench(const BenchOptions& o)
+{
+  if (!o.block.empty()) {
+    write_block(o.block, make_workload(spec_of(o, Workload::bonded_block)));
+    std::cout << "block: " << o.block.string() << '\n';
+    return 0;
+  }
+  if (!o.output.empty()) earlier_lines(o.output, csv_line(o.spec, {}, 0.0).header);
+
+  const auto n_blocks = static_cast<std::size_t>(o.repeat);
+  const std::size_t steps_a_block = static_cast<std::size_t>(o.steps) / n_blocks;
+  std::vector<std::pair<WorkloadSpec, Figures>> found;
+  for (const Workload w : o.workloads) {
+    const WorkloadSpec spec = spec_of(o, w);
+    found.emplace_back(spec, measure(spec, steps_a_block, n_blocks));
+    print(spec, found.back().second);
+  }
+  const double triad = triad_rate();
+  print_figure({"memory bandwidth, triad on one core", "GB/s", 1e-9 * triad, 1});
+
+  if (o.output.empty()) return 0;
+  std::vector<Line> lines;
+  for (const auto& [s, f] : found) lines.push_back(csv_line(s, f, triad));
+  append(o.output, lines);
+  std::cout << "table: " << o.output.string() << '\n';
+  return 0;
+}
+
+} // namespace
+
+void help_bench(std::ostream& out)
+{
+  CLI::App app;
+  BenchOptions o;
+  declare(app, o);
+  for (const CLI::Option* option : app.get_options()) {
+    std::string name = option->get_name();
+    if (name.find("help") != std::string::npos) continue;
+    name.resize(std::max<std::size_t>(name.size(), 15), ' ');
+    out << "  " << name << "  " << option->get_description() << '\n';
+  }
+  out << "\nW1 is a bonded block, W2 a frictional packing: see tests/bench/README.md.\n";
+}
+
+std::function<int()> read_bench(const std::vector<std::string>& arguments)
+{
+  CLI::App app;
+  BenchOptions o;
+  declare(app, o);
+  parse(app, "mergel bench", arguments);
+  check(o);
+  return [o] { return run_bench(o); };
+}
+
+} // namespace mergel::apps

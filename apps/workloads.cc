@@ -1,0 +1,399 @@
+#include "apps/workloads.h"
+
+#include "dem/error.h"
+#include "dem/random.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <string>
+
+namespace mergel::apps {
+
+namespace {
+
+using namespace dem;
+
+constexpr double unit = 0.1e-3;     ///< mean diameter [m]
+constexpr double g_a = 0.1 * unit;  ///< activation gap of W1 [m]; paper: 0.15 d00
+constexpr double skin = 0.2 * unit; ///< of the lists [m]; 0.3 d00 as in a run
+constexpr double rho = 2556.0;      ///< [kg/m^3]
+constexpr double safety = 0.7;      ///< of the time step
+constexpr double list_life = 250.0; ///< steps from one rebuild to the next
+constexpr double squeeze = 4e-6;    ///< strain a step of W1
+constexpr double slowing = 0.25;    ///< of the squeeze, twice, once the bonds yield
+constexpr double agitation = 2e-4;  ///< largest step of a particle of W2 over its unit
+constexpr std::size_t steps_between_checks = 100; ///< of the stable time step
+
+/// Purposes of the random numbers.
+enum Draw : std::uint64_t { place = 0, size = 3, push = 4 };
+
+Vec3 random_vector(std::uint64_t seed, std::uint64_t id, std::uint64_t draw)
+{
+  return {uniform(seed, id, draw), uniform(seed, id, draw + 1),
+          uniform(seed, id, draw + 2)};
+}
+
+/// Which of 2^21 slices of [0, 1) x is in, its bits two places apart.
+std::uint64_t spread(double x)
+{
+  auto slice = static_cast<std::uint64_t>(x * 0x1p21);
+  std::uint64_t code = 0;
+  for (int b = 0; b < 21; ++b) code |= ((slice >> b) & 1u) << (3 * b);
+  return code;
+}
+
+/// Spheres in a periodic cube.
+struct Cube {
+  Particles p;
+  PeriodicCell cell;
+};
+
+/// Points at random, numbered along Morton's curve, in a cube that they fill to `fraction`
+/// with shells of g_a/2.
+Cube draw_cube(const WorkloadSpec& spec, double shell_gap, double fraction)
+{
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> order; // place on the curve, trial
+  order.reserve(spec.n_particles);
+  for (std::uint64_t k = 0; k < spec.n_particles; ++k) {
+    const Vec3 u = random_vector(spec.seed, k, place);
+    order.emplace_back(spread(u.x()) | spread(u.y()) << 1 | spread(u.z()) << 2, k);
+  }
+  std::sort(order.begin(), order.end());
+
+  Cube cube;
+  double volume = 0.0;
+  for (const auto& [code, k] : order) {
+    Body b;
+    b.x = random_vector(spec.seed, k, place);
+    b.R = 0.5 * unit * (0.8 + 0.4 * uniform(spec.seed, k, size));
+    b.m = sphere_mass(b.R, rho);
+    volume += sphere_mass(b.R + 0.5 * shell_gap, 1.0);
+    cube.p.add(b);
+  }
+  const double edge = std::cbrt(volume / fraction);
+  for (Body& b : cube.p.body) b.x *= edge;
+  cube.cell.size = Vec3::Constant(edge);
+  return cube;
+}
+
+/// Pushes overlapping spheres apart, overdamped, with a memory of the last sweep.
+class Growth {
+public:
+  Growth(Cube& cube, double shell_gap)
+      : cube_(cube), g_a_(shell_gap), push_(cube.p.size()),
+        move_(cube.p.size(), Vec3::Zero())
+  {
+  }
+
+  /// One sweep at this share of the sizes. Returns the largest overlap that it met, over
+  /// the pair's distance.
+  double sweep(double share)
+  {
+    if (is_stale()) rebuild();
+    double worst = 0.0;
+    std::fill(push_.begin(), push_.end(), Vec3::Zero());
+    n_overlaps_ = 0;
+    for (const Pair& q : pairs_) {
+      const Body &i = cube_.p.body[q.i], &j = cube_.p.body[q.j];
+      const double reach = share * (i.R + j.R + g_a_);
+      const Vec3 r = j.x + cube_.cell.offset(q.shift) - i.x;
+      const double d2 = r.squaredNorm();
+      if (d2 >= reach * reach) continue;
+      ++n_overlaps_;
+      const double d = std::sqrt(d2), overlap = reach - d;
+      worst = std::max(worst, overlap / reach);
+      const Vec3 n = d > 0.0 ? Vec3(r / d) : Vec3::UnitX();
+      push_[q.i] -= 0.5 * overlap * n;
+      push_[q.j] += 0.5 * overlap * n;
+    }
+    for (std::size_t i = 0; i < move_.size(); ++i) {
+      move_[i] = memory * move_[i] + relaxation * push_[i];
+      const double limit = 0.1 * unit, length = move_[i].norm();
+      if (length > limit) move_[i] *= limit / length;
+      cube_.p.body[i].x += move_[i];
+    }
+    return worst;
+  }
+
+  std::size_t n_overlaps() const { return n_overlaps_; } ///< met by the last sweep
+
+private:
+  static constexpr double relaxation = 0.3; // 1/3 is the limit at 12 neighbours
+  static constexpr double memory = 0.8;
+  static constexpr double margin = 0.15 * unit;
+
+  bool is_stale() const
+  {
+    if (listed_.empty()) return true;
+    for (std::size_t i = 0; i < listed_.size(); ++i)
+      if ((cube_.p.body[i].x - listed_[i]).squaredNorm() > 0.25 * margin * margin)
+        return true;
+    return false;
+  }
+
+  void rebuild()
+  {
+    pairs_ = find_pairs(cube_.p, cube_.cell, g_a_ + margin);
+    listed_.clear();
+    for (const Body& b : cube_.p.body) listed_.push_back(b.x);
+  }
+
+  Cube& cube_;
+  double g_a_;
+  std::vector<Pair> pairs_;
+  std::vector<Vec3> listed_, push_, move_;
+  std::size_t n_overlaps_ = 0;
+};
+
+/// Grow to full size.
+void grow(Growth& growth)
+{
+  constexpr int n_sweeps = 150;
+  for (int k = 0; k < n_sweeps; ++k) growth.sweep(0.6 + 0.4 * k / n_sweeps);
+}
+
+/// Sweep until no overlap exceeds 1e-3 of the distance.
+void unjam(Growth& growth)
+{
+  constexpr int most_sweeps = 1000;
+  for (int k = 0; k < most_sweeps; ++k)
+    if (growth.sweep(1.0) < 1e-3) return;
+}
+
+/// Closest pairs, ascending.
+std::vector<Pair> closest_pairs(const Particles& p, std::size_t wanted)
+{
+  const PeriodicCell open;
+  std::vector<std::pair<double, Pair>> by_gap;
+  for (const Pair& q : find_pairs(p, open, 0.6 * unit)) {
+    const Body &i = p.body[q.i], &j = p.body[q.j];
+    by_gap.emplace_back((j.x - i.x).norm() - (i.R + j.R), q);
+  }
+  std::sort(by_gap.begin(), by_gap.end());
+  by_gap.resize(std::min(wanted, by_gap.size()));
+  std::vector<Pair> pairs;
+  for (const auto& [gap, q] : by_gap) pairs.push_back(q);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+LinearMaterial rock_contact(double gap)
+{
+  LinearMaterial c;
+  c.E = 0.63e9;
+  c.kappa = 2.4;
+  c.mu = 0.3;
+  c.g_a = gap;
+  return c;
+}
+
+/// The paper's rock (Table 1, right) with twist, without softening.
+DamageBond lasting_bond(bool yields)
+{
+  DamageBond b;
+  b.E = 22.5e9;
+  b.kappa = 2.4;
+  b.twist = Twist::elastic;
+  const double out_of_reach = 1e6;
+  const double strength = yields ? 1.0 : out_of_reach;
+  b.sigma_t = 36e6 * strength;
+  b.sigma_c = 198e6 * strength;
+  b.C = 40.5e6 * strength;
+  b.u_c = unit * out_of_reach;
+  b.theta_c = out_of_reach;
+  return b;
+}
+
+void set_time_step(WorkingRock& working)
+{
+  add_forces(working.rock, 0.0);
+  working.dt = working.dt_before = stable_time_step(working.rock, safety);
+}
+
+/// The speed of flight: half the skin in the life of a list.
+Vec3 flight(double dt)
+{
+  return {0.5 * skin / (list_life * dt), 0.0, 0.0};
+}
+
+void start_squeezing(WorkingRock& working, double edge)
+{
+  constexpr double heavy = 1e6;
+  const double end = 0.5 * edge - unit, rate = squeeze / working.dt;
+  for (Body& b : working.rock.particles.body) {
+    const double height = b.x.z() - 0.5 * edge;
+    if (std::abs(height) > end) b.m *= heavy;
+    b.v = flight(working.dt) - Vec3(0.0, 0.0, rate * height);
+  }
+}
+
+/// Bonds that yielded in n steps, over the bonds and the steps.
+double share_yielding(WorkingRock& working, std::size_t n)
+{
+  PairLosses& losses = working.rock.losses;
+  const std::size_t before = losses.yielded;
+  for (std::size_t k = 0; k < n; ++k) working.step();
+  return static_cast<double>(losses.yielded - before) /
+         static_cast<double>(n * working.rock.bonds.size());
+}
+
+/// Squeeze until 0.7 of this share yields, then more slowly, so that the share is met on
+/// average by the next thousand steps.
+void squeeze_until_yielding(WorkingRock& working, double share)
+{
+  constexpr std::size_t most_steps = 10000;
+  constexpr int n_slower = 2;
+  std::size_t n = 0;
+  for (int slower = 0;; ++slower) {
+    const std::size_t at_a_time = slower == 0 ? 50 : 200; // waves pass in some 200 steps
+    for (double now = 0.0; now < 0.7 * share; n += at_a_time) {
+      if (n >= most_steps)
+        throw NumericalError("workload W1: only " + std::to_string(now) +
+                             " of the bonds yield in a step after " + std::to_string(n) +
+                             " steps of squeezing, wanted " + std::to_string(share) +
+                             "; lower --yielding");
+      now = share_yielding(working, at_a_time);
+    }
+    if (slower == n_slower) return;
+    const Vec3 mean = flight(working.dt);
+    for (Body& b : working.rock.particles.body) { // so that the share lasts
+      b.v = mean + slowing * (b.v - mean);
+      b.omega *= slowing;
+    }
+  }
+}
+
+WorkingRock make_block(const WorkloadSpec& spec)
+{
+  Cube cube = draw_cube(spec, g_a, 0.6);
+  Growth growth(cube, g_a);
+  grow(growth);
+  unjam(growth);
+  const double edge = cube.cell.size.x();
+  for (Body& b : cube.p.body) // back into the cube before it is cut open
+    for (int a = 0; a < 3; ++a) b.x[a] -= edge * std::floor(b.x[a] / edge);
+
+  WorkingRock working;
+  Rock& rock = working.rock;
+  rock.particles = std::move(cube.p);
+  rock.material = {lasting_bond(spec.yielding > 0.0), rock_contact(g_a)};
+  rock.motion.damping = 0.0;
+  rock.list = VerletList(g_a, skin);
+  const double wanted = bonds_per_particle * static_cast<double>(spec.n_particles);
+  rock.bonds =
+      make_bonds(rock.particles, rock.cell,
+                 closest_pairs(rock.particles, static_cast<std::size_t>(wanted + 0.5)));
+  set_time_step(working);
+  start_squeezing(working, edge);
+  if (spec.yielding > 0.0) squeeze_until_yielding(working, spec.yielding);
+  return working;
+}
+
+/// Swell the spheres in small steps until they have so many contacts.
+void press(Cube& cube, Growth& growth, double contacts)
+{
+  constexpr double swell = 1.001;
+  constexpr int most_swells = 200, sweeps = 40;
+  const auto wanted = contacts * static_cast<double>(cube.p.size());
+  for (int n = 0; n < most_swells; ++n) {
+    for (int k = 0; k < sweeps; ++k) growth.sweep(1.0);
+    if (static_cast<double>(growth.n_overlaps()) >= wanted) return;
+    for (Body& b : cube.p.body) {
+      b.R *= swell;
+      b.m = sphere_mass(b.R, rho);
+    }
+  }
+  throw NumericalError("workload W2: the spheres do not reach " + std::to_string(contacts) +
+                       " contacts each");
+}
+
+WorkingRock make_packing(const WorkloadSpec& spec)
+{
+  Cube cube = draw_cube(spec, 0.0, 0.64);
+  Growth growth(cube, 0.0);
+  grow(growth);
+  press(cube, growth, contacts_per_particle);
+
+  WorkingRock working;
+  Rock& rock = working.rock;
+  rock.particles = std::move(cube.p);
+  rock.cell = cube.cell;
+  rock.material = {lasting_bond(false), rock_contact(0.0)};
+  rock.motion.free_rotation = true;
+  rock.list = VerletList(0.0, skin);
+  set_time_step(working);
+  constexpr int steps_to_settle = 300;
+  for (int k = 0; k < steps_to_settle; ++k) working.step();
+
+  rock.motion.damping = 0.0;
+  for (std::size_t i = 0; i < rock.particles.size(); ++i) {
+    const Vec3 u = random_vector(spec.seed, i, push);
+    rock.particles.body[i].v =
+        flight(working.dt) + agitation * unit / working.dt * (2.0 * u - Vec3::Ones());
+  }
+  return working;
+}
+
+} // namespace
+
+void WorkloadSpec::check() const
+{
+  require(n_particles >= 200 && n_particles <= 20000000,
+          "mergel bench: --particles = " + std::to_string(n_particles) +
+              ": must lie in 200 to 2e7");
+  require(yielding >= 0.0 && yielding <= 0.5,
+          "mergel bench: --yielding = " + std::to_string(yielding) +
+              ": must lie in 0 to 0.5");
+  require(yielding == 0.0 || workload == Workload::bonded_block,
+          "mergel bench: --yielding: only W1 has bonds. Add --workload W1");
+}
+
+void WorkingRock::step()
+{
+  if (n_steps % steps_between_checks == 0)
+    dt = std::min(dt, stable_time_step(rock, safety));
+  advance(rock, dt_before, dt, [](double) {});
+  dt_before = dt;
+  ++n_steps;
+}
+
+WorkingRock make_workload(const WorkloadSpec& spec)
+{
+  spec.check();
+  return spec.workload == Workload::bonded_block ? make_block(spec) : make_packing(spec);
+}
+
+std::size_t count_contacts(const Rock& rock)
+{
+  return static_cast<std::size_t>(std::count_if(
+      rock.contacts.pairs.begin(), rock.contacts.pairs.end(), [&](const Pair& q) {
+        return read_contact(q, Vec3::Zero(), rock.particles, rock.cell,
+                            rock.material.contact)
+                   .f_n > 0.0;
+      }));
+}
+
+std::uint64_t checksum(const Particles& p)
+{
+  std::vector<std::size_t> order(p.n_owned);
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return p.id[a] < p.id[b]; });
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  const auto add = [&hash](const Vec3& a) {
+    for (const std::byte byte : std::as_bytes(std::span(a.data(), 3))) {
+      hash ^= std::to_integer<std::uint64_t>(byte);
+      hash *= 0x100000001b3u;
+    }
+  };
+  for (const std::size_t i : order) {
+    add(p.body[i].x);
+    add(p.body[i].v);
+    add(p.body[i].omega);
+  }
+  return hash;
+}
+
+} // namespace mergel::apps
