@@ -51,25 +51,99 @@ double solve_h(const YieldPoint& trial, const EnergyNorm& w, double mu, double h
   return h;
 }
 
-/// Closest point of the ellipse n^2 + v^2 = 1 to a trial outside of it, and its multiplier.
-double return_to_ellipse(YieldPoint& y, const EnergyNorm& w)
+/// (n, v) at h = 1, on the way to the edge m = 0; rho2 = n^2 + v^2 falls with mu at the
+/// rate 2 fall.
+struct EdgeSection {
+  double n, v, rho2, fall;
+};
+
+EdgeSection edge_section(const YieldPoint& trial, const EnergyNorm& w, double mu)
 {
-  const YieldPoint trial = y;
+  const double c_n = 4.0 / w.n, c_v = 4.0 / w.v;
+  const double inv_a = 1.0 / (1.0 + c_n * mu), inv_b = 1.0 / (1.0 + c_v * mu);
+  const double n = trial.n * inv_a, v = trial.v * inv_b;
+  return {n, v, n * n + v * v, c_n * n * n * inv_a + c_v * v * v * inv_b};
+}
+
+/// Closest point of the ellipse n^2 + v^2 = 1 to a trial outside of it.
+YieldPoint return_to_ellipse(const YieldPoint& trial, const EnergyNorm& w)
+{
+  YieldPoint y{};
   double mu = 0.0;
   // 1/rho is nearly linear in mu and concave: Newton from mu = 0 rises to the root.
   for (int i = 0; i < 60; ++i) {
-    const Section s = section(trial, w, mu, 1.0);
-    const double rho2 = s.n * s.n + s.v * s.v, rho = std::sqrt(rho2);
-    y = {s.n / rho, s.v / rho, 0.0};
-    const double step = rho2 / -(s.n * s.n_mu + s.v * s.v_mu) * (rho - 1.0);
+    const EdgeSection s = edge_section(trial, w, mu);
+    const double rho = std::sqrt(s.rho2), inv_rho = 1.0 / rho;
+    y = {s.n * inv_rho, s.v * inv_rho, 0.0};
+    const double step = s.rho2 * (rho - 1.0) / s.fall;
     mu += step;
-    if (std::abs(rho - 1.0) <= 4e-16 || std::abs(step) <= 1e-16 * mu) break;
+    if (std::abs(rho - 1.0) <= 1e-15 || std::abs(step) <= 1e-16 * mu) break;
   }
-  return mu;
+  return y;
+}
+
+/// The fast path of closest_point(): Newton for mu and h at once from the trial itself.
+/// False where it leaves the admissible set or does not settle; y is then as it was.
+///
+/// With N = n^2, V = v^2 and subscripts for slopes it solves
+///
+///   f = m + N + h V - 1 = 0,   g = h (1 - N) - V = 0
+bool return_by_newton(YieldPoint& y, const EnergyNorm& w)
+{
+  const YieldPoint trial = y;
+  const double c_n = 2.0 / w.n, c_v = 4.0 / w.v, c_m = 1.0 / w.m;
+  const double N_trial = trial.n * trial.n, V_trial = trial.v * trial.v;
+  const double round_off = 1e-15 * (1.0 + trial.m);
+  double mu = 0.0, h = V_trial < 1.0 - N_trial ? V_trial / (1.0 - N_trial) : 1.0;
+  for (int i = 0; i < 8; ++i) {
+    const double inv_a = 1.0 / (1.0 + c_n * mu * (1.0 + h * h));
+    const double inv_b = 1.0 / (1.0 + c_v * mu * h);
+    const double n = trial.n * inv_a, v = trial.v * inv_b;
+    const double N = n * n, V = v * v, m = trial.m - mu * c_m;
+    const double f = m + N + h * V - 1.0, g = h * (1.0 - N) - V;
+    if (std::abs(f) <= round_off && std::abs(g) <= 1e-15 * h) {
+      // m as the surface has it, whatever is left of f; >= 0 since h <= 1
+      y = {n, v, std::max(0.0, 1.0 - N - h * V)};
+      return true;
+    }
+    const double N_mu = -2.0 * N * c_n * (1.0 + h * h) * inv_a;
+    const double N_h = -4.0 * N * c_n * mu * h * inv_a;
+    const double V_mu = -2.0 * V * c_v * h * inv_b, V_h = -2.0 * V * c_v * mu * inv_b;
+    const double f_mu = N_mu + h * V_mu - c_m, f_h = N_h + V + h * V_h;
+    const double g_mu = -h * N_mu - V_mu, g_h = 1.0 - N - h * N_h - V_h;
+    const double inv_det = 1.0 / (f_mu * g_h - f_h * g_mu);
+    mu -= (f * g_h - g * f_h) * inv_det;
+    h -= (g * f_mu - f * g_mu) * inv_det;
+    if (!(mu >= 0.0 && h >= 0.0 && h <= 1.0)) return false;
+  }
+  return false;
+}
+
+/// 1/k of each load; none of the twist without it, as T is 0 then.
+struct Compliance {
+  double n, s, b, t;
+};
+
+Compliance compliance(const BondShape<double>& s)
+{
+  return {1.0 / s.k_n, 1.0 / s.k_s, 1.0 / s.k_b, s.k_t > 0.0 ? 1.0 / s.k_t : 0.0};
+}
+
+/// As mutual_energy(shape, q0, q1).
+double mutual_energy(const Compliance& c, const EffectiveLoads<double>& q0,
+                     const EffectiveLoads<double>& q1)
+{
+  return q0.N * q1.N * c.n + dot(q0.V, q1.V) * c.s + dot(q0.M, q1.M) * c.b +
+         q0.T * q1.T * c.t;
 }
 
 } // namespace
 
+// Two paths. In a run the trial lies just outside the surface, where Newton for mu and h at
+// once settles in two or three steps. The problem is convex: whatever satisfies all
+// conditions within the admissible set is the closest point, so nothing else needs a check.
+// Where that Newton strays, as it does near the tip n = 1 and from trials far outside, the
+// search within a bracket takes over: slower, and it never fails.
 YieldPoint closest_point(const YieldPoint& given, const EnergyNorm& w)
 {
   YieldPoint trial = given;
@@ -80,10 +154,13 @@ YieldPoint closest_point(const YieldPoint& given, const EnergyNorm& w)
   };
 
   if (trial.n * trial.n + trial.v * trial.v > 1.0) {
-    YieldPoint y = trial;
-    const double mu = return_to_ellipse(y, w);
-    if (mu >= w.m * trial.m) return with_sign(y); // m* - mu/w.m <= 0: the edge
+    // the edge where m = m* - mu/w.m is spent before the ellipse is reached
+    const bool is_edge = edge_section(trial, w, w.m * trial.m).rho2 >= 1.0;
+    if (is_edge) return with_sign(return_to_ellipse(trial, w));
   }
+
+  YieldPoint y = trial;
+  if (return_by_newton(y, w)) return with_sign(y);
 
   // f(0) > 0, f(w.m m*) <= 0 because m is spent there and the edge was excluded. f(mu) can
   // be S-shaped near the tip n = 1, where Newton may cycle between two ends of the bracket.
@@ -133,37 +210,42 @@ BondReturn return_bond(const DamageBond& b, const BondShape<double>& s, double S
                        const EffectiveLoads<double>& trial)
 {
   const BondStrength strength = bond_strength(b, s, trial.N);
+  const Compliance c = compliance(s);
   const double V = std::sqrt(dot(trial.V, trial.V)), M = std::sqrt(dot(trial.M, trial.M));
   const YieldPoint y{trial.N / strength.N, V / strength.V, M / strength.M};
 
   BondReturn r;
   r.state = state;
   r.loads = trial;
+  double keep_V = 1.0, keep_M = 1.0;
   if (yield_function(y) > 0.0) {
     // published: the length that Eq. 7 leaves out is 1 m in SI
-    const double k_flow = b.flow == BendingFlow::conjugate ? s.k_b : s.k_b * s.R_b;
+    const double c_flow = b.flow == BendingFlow::conjugate ? c.b : c.b / s.R_b;
     const YieldPoint at =
-        closest_point(y, {strength.N * strength.N / s.k_n, strength.V * strength.V / s.k_s,
-                          strength.M * strength.M / k_flow});
+        closest_point(y, {strength.N * strength.N * c.n, strength.V * strength.V * c.s,
+                          strength.M * strength.M * c_flow});
+    if (y.v > 0.0) keep_V = at.v / y.v;
+    if (y.m > 0.0) keep_M = at.m / y.m;
     r.loads.N = at.n * strength.N;
-    r.loads.V = trial.V * (y.v > 0.0 ? at.v / y.v : 1.0);
-    r.loads.M = trial.M * (y.m > 0.0 ? at.m / y.m : 1.0);
+    r.loads.V = trial.V * keep_V;
+    r.loads.M = trial.M * keep_M;
   }
 
-  const double du_n = (trial.N - r.loads.N) / s.k_n;
-  const double du_s = std::max(0.0, V - std::sqrt(dot(r.loads.V, r.loads.V))) / s.k_s;
-  const double dtheta = std::max(0.0, M - std::sqrt(dot(r.loads.M, r.loads.M))) / s.k_b;
+  const double du_n = (trial.N - r.loads.N) * c.n;
+  const double du_s = std::max(0.0, V * (1.0 - keep_V)) * c.s;
+  const double dtheta = std::max(0.0, M * (1.0 - keep_M)) * c.b;
   r.state.u_p += du_n;
   r.state.intact *= std::exp(-((std::abs(du_n) + du_s) / (b.u_c * S) + dtheta / b.theta_c));
 
   // Work of the true loads over the motion (trial - old)/k, trapezoidal.
   const double d0 = state.intact, d1 = r.state.intact;
-  const auto work_of = [&](const EffectiveLoads<double>& q) {
-    return mutual_energy(s, q, trial) - mutual_energy(s, q, old);
-  };
-  const double at_end = 0.5 * d1 * work_of(r.loads);
-  const double stored = d1 * spring_energy(s, r.loads);
-  r.loss = 0.5 * d0 * work_of(old) + at_end - (stored - d0 * spring_energy(s, old));
+  const EffectiveLoads<double> step{trial.N - old.N, trial.V - old.V, trial.M - old.M,
+                                    trial.T - old.T};
+  const double at_end = 0.5 * d1 * mutual_energy(c, r.loads, step);
+  const double stored = 0.5 * d1 * mutual_energy(c, r.loads, r.loads);
+  const double from_start =
+      0.5 * d0 * (mutual_energy(c, old, step) + mutual_energy(c, old, old));
+  r.loss = from_start + at_end - stored;
   if (r.state.intact <= 1.0 - b.D_broken) {
     r.state.intact = 0.0;
     r.residue = stored - at_end;

@@ -104,10 +104,11 @@ struct EnergyNorm {
 ///
 ///   n = n*/(1 + 2 mu (1+h^2)/w.n),   v = v*/(1 + 4 mu h/w.v),   m = m* - mu/w.m
 ///
-/// h = 1 is the edge m = 0, the ellipse n^2 + v^2 = 1, where more than a third of all
-/// returns end. Else f(mu) falls monotonically from f(0) > 0: Newton within a bracket, and
-/// for each mu one monotone equation for h. Never fails for finite input; the result is on
-/// the surface to round-off.
+/// h = 1 is the edge m = 0, the ellipse n^2 + v^2 = 1, where more than a third of the
+/// returns from far outside end. Else Newton for mu and h at once, which next to the
+/// surface takes two or three steps. Where it strays, f(mu) falls monotonically from
+/// f(0) > 0: Newton within a bracket, and for each mu one monotone equation for h. Never
+/// fails for finite input; the result is on the surface to round-off.
 YieldPoint closest_point(const YieldPoint& trial, const EnergyNorm& w);
 
 /// Return a trial state outside the surface to it and update the damage.
