@@ -2,6 +2,7 @@
 #include "apps/jobs.h"
 #include "apps/material_keys.h"
 #include "apps/output_folder.h"
+#include "apps/ranks.h"
 #include "dem/driven_pair.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"
@@ -267,7 +268,10 @@ void help_bond(std::ostream& out)
   file.help(out);
 }
 
-int run_bond(const JobOptions& options)
+namespace {
+
+/// The whole job: one pair is work for one rank.
+void drive_bond(const JobOptions& options)
 {
   CaseFile file;
   BondCase c;
@@ -301,6 +305,13 @@ int run_bond(const JobOptions& options)
       [&](const auto& bond) { return single_strengths(bond, pair.shape()); }, law);
   write_summary(folder.path() / "summary.json", c, strong, record, pair);
   print_summary(folder.path(), record);
+}
+
+} // namespace
+
+int run_bond(const JobOptions& options)
+{
+  on_first_rank([&] { drive_bond(options); });
   return 0;
 }
 

@@ -1,6 +1,7 @@
 #include "apps/coupled_rock.h"
 
 #include "apps/progress.h"
+#include "dem/distribute.h"
 #include "dem/io/history.h"
 
 #include <algorithm>
@@ -17,11 +18,11 @@ std::vector<double> interface_springs(const dem::Rock& rock,
                                       const coupling::Transfer& transfer)
 {
   const dem::Wall& wall = rock.walls.front();
-  coupling::Nodal k_dem(wall.x.size(), dem::Vec3::Zero()), k_fem;
+  std::vector<dem::ForceSum> sums(wall.x.size()); // [N/m]
   const auto add = [&](int triangle, const dem::Vec3& weight, double k) {
     const dem::Triangle& t = wall.topology.triangles[static_cast<std::size_t>(triangle)];
     for (int c = 0; c < 3; ++c)
-      k_dem[static_cast<std::size_t>(t[static_cast<std::size_t>(c)])].x() += weight[c] * k;
+      sums[static_cast<std::size_t>(t[static_cast<std::size_t>(c)])].add(weight[c] * k);
   };
   const auto radius = [&](dem::Index i) { return rock.particles.body[i].R; };
   for (const dem::WallBond& b : wall.bonds) {
@@ -35,6 +36,11 @@ std::vector<double> interface_springs(const dem::Rock& rock,
     for (const int t : wall.near[k])
       add(t, dem::Vec3::Ones(), dem::linear_stiffness(wall.material, R, 1.0 / R).k_n);
   }
+  dem::ExactReduction all;
+  for (dem::ForceSum& s : sums) all.add(s);
+  all.run(rock.domain);
+  coupling::Nodal k_dem, k_fem;
+  for (const dem::ForceSum& s : sums) k_dem.emplace_back(s.value(), 0.0, 0.0);
   transfer.to_fem(k_dem, k_fem);
   std::vector<double> k(k_fem.size());
   for (std::size_t n = 0; n < k.size(); ++n) k[n] = k_fem[n].x();
@@ -73,6 +79,7 @@ CoupledRock::CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarF
     dem::bond_to_wall(rock.walls.front(), rock.particles, sample.bonding.limit);
   rock.wall_bonds_yield = c.interface_bond == dem::InterfaceBond::breakable;
 
+  dem::share_out(rock, MPI_COMM_WORLD);
   dem::add_forces(rock, 0.0); // nothing has moved yet: histories stay
   dt = dt_before = dem::stable_time_step(rock, safety);
   lower_time_step();
@@ -86,6 +93,15 @@ void CoupledRock::lower_time_step()
         far_field.stable_time_step(interface_springs(rock, exchange.transfer()));
     dt = std::min(dt, safety * far / std::sqrt(1.0 + rock.motion.damping));
   }
+}
+
+void CoupledRock::even_out()
+{
+  const double spent = rock.times.total() - rock.times.exchange;
+  const double since = spent - spent_before_;
+  spent_before_ = spent;
+  const double most = rock.domain.greatest(since), least = rock.domain.least(since);
+  if (most > imbalance_allowed * least) dem::rebalance(rock, since);
 }
 
 double CoupledRock::unbalanced() const
@@ -169,18 +185,21 @@ void equilibrate(CoupledRock& coupled, double ratio, std::size_t most_steps)
     const coupling::Nodal u = coupled.exchange.settle(wall);
     // As a motion over one step, so that every history sees it; at rest before and after.
     const double dt = coupled.dt;
-    for (dem::Body& b : coupled.rock.particles.body) {
+    dem::Particles& p = coupled.rock.particles;
+    p.for_owned([&](dem::Index i) {
+      dem::Body& b = p.body[i];
       const dem::Vec3 moved = coupling::interpolate_inside(x, u, b.x);
       b.x += moved;
       b.v = moved / dt;
       b.omega.setZero();
-    }
+    });
     for (std::size_t k = 0; k < u.size(); ++k) wall.v[k] = u[k] / dt;
     dem::add_forces(coupled.rock, dt);
-    for (dem::Body& b : coupled.rock.particles.body) b.v.setZero();
+    p.for_owned([&](dem::Index i) { p.body[i].v.setZero(); });
     for (dem::Vec3& v : wall.v) v.setZero();
     relax(coupled, "settling with the far field", ratio, most_steps);
   }
+  coupled.rock.domain.gather_motion(coupled.rock.particles);
   for (const dem::Body& b : coupled.rock.particles.body) coupled.x_0.push_back(b.x);
 }
 

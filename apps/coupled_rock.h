@@ -34,6 +34,7 @@ struct CoupledRock {
   void step(MovePile&& move_pile)
   {
     if (n_steps % steps_between_checks == 0) lower_time_step();
+    if (n_steps % steps_between_shares == 0) even_out();
     try {
       dem::advance(rock, dt_before, dt, [&](double h) {
         if (model == FarFieldModel::elastic) exchange.step(rock.walls.front(), h);
@@ -51,6 +52,9 @@ struct CoupledRock {
   /// Re-evaluate the critical step of grains and far field; lower dt if it fell.
   void lower_time_step();
 
+  /// Give ranks that were slow fewer grains; no bit of the results depends on it.
+  void even_out();
+
   /// Larger of the unbalanced-force ratios of grains and far field.
   double unbalanced() const;
 
@@ -66,6 +70,11 @@ struct CoupledRock {
 
   static constexpr std::size_t steps_between_checks = 100;
   static constexpr std::size_t steps_between_far_field_checks = 5000;
+  static constexpr std::size_t steps_between_shares = 2000;
+  static constexpr double imbalance_allowed = 1.15; ///< slowest over fastest rank
+
+private:
+  double spent_before_ = 0.0; ///< of rock.times at the last even_out() [s]
 };
 
 /// The far field of a case; sets the number of faces around its side, which the specimen

@@ -2,6 +2,7 @@
 
 #include "apps/command_line.h"
 #include "apps/jobs.h"
+#include "apps/ranks.h"
 #include "apps/run_guard.h"
 #include "apps/words.h"
 #include "dem/error.h"
@@ -119,11 +120,7 @@ int run(int argc, char** argv)
 
   fem::Runtime runtime(argc, argv);
   return run_guarded([&] {
-    int n_ranks = 1;
-    MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
-    require(n_ranks == 1, "mergel runs on one rank in this version; started on " +
-                              std::to_string(n_ranks) +
-                              ". Start it without mpirun, or with mpirun -n 1.");
+    silence_other_ranks();
     return start();
   });
 }

@@ -4,10 +4,13 @@
 #include "apps/output_folder.h"
 #include "apps/pile_output.h"
 #include "apps/progress.h"
+#include "apps/ranks.h"
+#include "dem/distribute.h"
 #include "dem/io/atomic_file.h"
 
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 namespace mergel::apps {
@@ -15,33 +18,33 @@ namespace mergel::apps {
 namespace {
 
 /// Where bonds between grains broke, seen from the pile as it stood then.
-class Breakage {
+class BreakageCount {
 public:
   std::size_t all = 0;
   std::size_t near = 0;  ///< within 2 D_p of the axis
   std::size_t above = 0; ///< more than D_p above the shoulder and outside the shaft
 
-  explicit Breakage(const dem::Rock& rock) : is_counted_(rock.bonds.size(), false) {}
-
-  /// Count the bonds that broke since the last call.
+  /// Count the bonds that broke since the last call; collective.
   void update(const dem::Rock& rock)
   {
     const dem::Pile& pile = rock.piles.front().pile;
     const double D = 2.0 * pile.R;
-    for (std::size_t k = 0; k < rock.bonds.size(); ++k) {
-      if (is_counted_[k] || rock.bonds.intact(k) > 0.0) continue;
-      is_counted_[k] = true;
-      const dem::Pair& q = rock.bonds.pairs[k];
-      const dem::Vec3 x = 0.5 * (rock.particles.body[q.i].x + rock.particles.body[q.j].x);
+    const auto& breakages = rock.losses.breakages;
+    std::size_t n_near = 0, n_above = 0;
+    for (std::size_t k = n_seen_; k < breakages.size(); ++k) {
+      const dem::Vec3& x = breakages[k].x;
       const double r = std::hypot(x.x() - pile.x_axis, x.y() - pile.y_axis);
-      ++all;
-      near += r <= 2.0 * D;
-      above += x.z() > pile.z_shoulder() + D && r > pile.R;
+      n_near += r <= 2.0 * D;
+      n_above += x.z() > pile.z_shoulder() + D && r > pile.R;
     }
+    all += rock.domain.sum(breakages.size() - n_seen_);
+    near += rock.domain.sum(n_near);
+    above += rock.domain.sum(n_above);
+    n_seen_ = breakages.size();
   }
 
 private:
-  std::vector<bool> is_counted_;
+  std::size_t n_seen_ = 0;
 };
 
 /// Velocity that starts and ends with a ramp of constant acceleration over 0.05 D.
@@ -79,9 +82,9 @@ struct MeanForce {
 /// Drives the pile down and keeps the books.
 class Installation {
 public:
-  Installation(const PileCase& c, CoupledRock& coupled, PileOutput& output)
-      : case_(c), coupled_(coupled), output_(output), jack_(c), start_(coupled.books()),
-        breakage_(coupled.rock)
+  /// @param output null on all ranks but the first
+  Installation(const PileCase& c, CoupledRock& coupled, PileOutput* output)
+      : case_(c), coupled_(coupled), output_(output), jack_(c), start_(coupled.books())
   {
     dem::PileWall pile;
     pile.pile.R = 0.5 * c.diameter;
@@ -90,18 +93,23 @@ public:
     coupled.rock.piles.push_back(pile);
     coupled.rock.list.invalidate();
     dem::add_forces(coupled.rock, 0.0);
-    n_bonds_ = coupled.rock.bonds.size();
-    for (const dem::Wall& w : coupled.rock.walls) n_bonds_ += w.bonds.size();
+    std::size_t n = 0; // each where its first grain is owned
+    for (const dem::Pair& q : coupled.rock.bonds.pairs)
+      n += coupled.rock.particles.owns(q.i);
+    n_between_ = coupled.rock.domain.sum(n);
+    n = 0;
+    for (const dem::Wall& w : coupled.rock.walls) n += w.bonds.size();
     for (const dem::Mirror& m : coupled.rock.mirrors)
-      for (const dem::MirrorPair& pair : m.pairs) n_bonds_ += pair.bond.intact > 0.0;
+      for (const dem::MirrorPair& pair : m.pairs) n += pair.bond.intact > 0.0;
+    n_bonds_ = n_between_ + coupled.rock.domain.sum(n);
   }
 
   void run()
   {
     dem::Pile& pile = coupled_.rock.piles.front().pile;
     Progress progress("driving");
-    output_.frame(0.0, coupled_);
-    int frame = 1;
+    frame();
+    int n_frames = 1;
     double next_record = case_.record_every;
     while (travelled() < jack_.travel()) {
       coupled_.step([&](double dt) {
@@ -118,9 +126,9 @@ public:
         record();
         next_record += case_.record_every;
       }
-      if (travelled() >= jack_.travel() * frame / case_.frames || is_over) {
-        output_.frame(time_, coupled_);
-        ++frame;
+      if (travelled() >= jack_.travel() * n_frames / case_.frames || is_over) {
+        frame();
+        ++n_frames;
       }
       if (coupled_.n_steps % 20 == 0)
         progress.update(travelled() / jack_.travel(), [&] { return now(); });
@@ -132,11 +140,18 @@ public:
   double peak() const { return q_peak_; }
   double worst_energy_error() const { return worst_energy_error_; }
   const coupling::InterfaceBalance& worst_interface() const { return worst_interface_; }
-  const Breakage& breakage() const { return breakage_; }
-  std::size_t n_bonds() const { return n_bonds_; } ///< of all kinds, when driving began
+  const BreakageCount& breakage() const { return breakage_; }
+  std::size_t n_bonds() const { return n_bonds_; }     ///< of all kinds, when driving began
+  std::size_t n_between() const { return n_between_; } ///< of these, between grains
 
 private:
   double travelled() const { return -coupled_.rock.piles.front().pile.z_tip; }
+
+  void frame()
+  {
+    const dem::Rock rock = dem::whole(coupled_.rock);
+    if (output_) output_->frame(time_, rock, coupled_);
+  }
 
   std::string now() const
   {
@@ -160,7 +175,8 @@ private:
     r.F_shaft = half_to_full * force_.shaft / static_cast<double>(force_.n);
     r.q_c = r.F_tip / area;
     breakage_.update(coupled_.rock);
-    r.broken = coupled_.rock.losses.broken; // none while settling: equilibrate() throws
+    r.broken = coupled_.rock.domain.sum(
+        coupled_.rock.losses.broken); // none while settling: equilibrate() throws
     r.unbalanced = coupled_.unbalanced();
     r.kinetic = books.rock.kinetic;
     r.interface = coupled_.balance();
@@ -180,7 +196,7 @@ private:
     force_ = {};
     last_ = r;
     q_peak_ = std::max(q_peak_, r.q_c);
-    output_.record(r);
+    if (output_) output_->record(r);
 
     worst_energy_error_ = std::max(worst_energy_error_, std::abs(r.energy_error));
     worst_interface_.force = std::max(worst_interface_.force, r.interface.force);
@@ -195,23 +211,23 @@ private:
 
   const PileCase& case_;
   CoupledRock& coupled_;
-  PileOutput& output_;
+  PileOutput* output_;
   Jack jack_;
   CoupledRock::Books start_;
-  Breakage breakage_;
+  BreakageCount breakage_;
   MeanForce force_;
   PileRecord last_;
   double time_ = 0.0, q_peak_ = 0.0, worst_energy_error_ = 0.0;
   coupling::InterfaceBalance worst_interface_;
-  std::size_t n_bonds_ = 0;
+  std::size_t n_bonds_ = 0, n_between_ = 0;
 };
 
 /// Grains that flew over the rim of the interface; they are followed, but nothing catches them.
 std::size_t count_debris(const dem::Rock& rock, double lip)
 {
   std::size_t n = 0;
-  for (const dem::Body& b : rock.particles.body) n += b.x.z() > lip;
-  return n;
+  rock.particles.for_owned([&](dem::Index i) { n += rock.particles.body[i].x.z() > lip; });
+  return rock.domain.sum(n);
 }
 
 struct Share {
@@ -230,12 +246,13 @@ std::string shares(const CoupledRock& coupled, double seconds)
   out.precision(3);
   out << "time of a step: " << 1e6 * whole / static_cast<double>(coupled.n_steps)
       << " us in " << coupled.n_steps << " steps, "
-      << 1e9 * whole / static_cast<double>(coupled.n_steps * coupled.rock.particles.n_owned)
+      << 1e9 * whole / static_cast<double>(coupled.n_steps * coupled.rock.particles.size())
       << " ns a grain;";
   for (const Share& s : {Share{"bonds", t.bonds},
                          {"contacts", t.contacts},
                          {"walls", t.walls},
                          {"motion", t.motion},
+                         {"ranks", t.exchange},
                          {"lists", t.lists},
                          {"far field", far},
                          {"coupling", ex}})
@@ -244,11 +261,11 @@ std::string shares(const CoupledRock& coupled, double seconds)
   return out.str();
 }
 
-void write_summary(const std::filesystem::path& file, const PileCase& c,
-                   const Installation& run, const CoupledRock& coupled, double seconds)
+void write_summary(const std::filesystem::path& file, const Installation& run,
+                   const CoupledRock& coupled, std::size_t n_debris, double seconds)
 {
   const PileRecord& r = run.last();
-  const Breakage& broken = run.breakage();
+  const BreakageCount& broken = run.breakage();
   std::ostringstream out;
   const auto number = [&](const char* name, double value, const char* end = ",\n") {
     out << "  \"" << name << "\": " << dem::shortest(value) << end;
@@ -263,16 +280,16 @@ void write_summary(const std::filesystem::path& file, const PileCase& c,
   number("shaft force of the full pile [N]", r.F_shaft);
   number("bonds [-]", count(run.n_bonds()));
   number("bonds broken [-]", count(r.broken));
-  number("bonds between grains [-]", count(coupled.rock.bonds.size()));
+  number("bonds between grains [-]", count(run.n_between()));
   number("broken between grains [-]", count(broken.all));
   number("broken within 2 D_p of the axis [-]", count(broken.near));
   number("broken more than D_p above the shoulder [-]", count(broken.above));
-  number("grains above the lip [-]", count(count_debris(coupled.rock, c.rock.lip)));
+  number("grains above the lip [-]", count(n_debris));
   number("largest energy error [-]", run.worst_energy_error());
   number("largest interface force error [-]", run.worst_interface().force);
   number("largest interface moment error [-]", run.worst_interface().moment);
   number("largest interface power error [-]", run.worst_interface().power);
-  number("particles [-]", count(coupled.rock.particles.n_owned));
+  number("particles [-]", count(coupled.rock.particles.size()));
   number("far-field cells [-]", count(coupled.far_field.n_cells()));
   number("steps [-]", count(coupled.n_steps));
   number("time step [s]", coupled.dt);
@@ -282,10 +299,11 @@ void write_summary(const std::filesystem::path& file, const PileCase& c,
 }
 
 void print_summary(const std::filesystem::path& folder, const PileCase& c,
-                   const Installation& run, const CoupledRock& coupled, double seconds)
+                   const Installation& run, const CoupledRock& coupled,
+                   std::size_t n_debris, double seconds)
 {
   const PileRecord& r = run.last();
-  const Breakage& broken = run.breakage();
+  const BreakageCount& broken = run.breakage();
   const auto percent = [](std::size_t part, std::size_t whole) {
     return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
   };
@@ -296,8 +314,8 @@ void print_summary(const std::filesystem::path& folder, const PileCase& c,
             << "bonds broken: " << r.broken << " of " << run.n_bonds() << ", " << broken.all
             << " of them between grains: " << percent(broken.near, broken.all)
             << " % within 2 D_p of the axis, " << broken.above
-            << " more than D_p above the shoulder when they broke; "
-            << count_debris(coupled.rock, c.rock.lip) << " grains flew above the lip\n"
+            << " more than D_p above the shoulder when they broke; " << n_debris
+            << " grains flew above the lip\n"
             << "energy book closes to " << 100.0 * run.worst_energy_error()
             << " % of the input; interface balances to " << run.worst_interface().force
             << " (force), " << run.worst_interface().moment << " (moment), "
@@ -329,7 +347,7 @@ int run_pile(const JobOptions& options)
                             options.overwrite ? Earlier::overwrite : Earlier::keep);
   std::vector<std::filesystem::path> inputs{options.case_file};
   if (!c.rock.sample.empty()) inputs.push_back(c.rock.sample);
-  folder.check(inputs);
+  on_first_rank([&] { folder.check(inputs); });
 
   fem::FarField far_field = make_far_field(c.rock);
   coupling::Interface interface =
@@ -337,19 +355,25 @@ int run_pile(const JobOptions& options)
   const dem::Sample sample = obtain_sample(file, c.rock);
   std::cout << far_field.summary() << '\n' << report(c.rock, sample) << '\n';
 
-  folder.commit(inputs);
-  file.write_resolved(folder.path() / "resolved.prm");
-  dem::write_sample(folder.path() / "sample.h5", sample);
+  std::optional<PileOutput> output;
+  on_first_rank([&] {
+    folder.commit(inputs);
+    file.write_resolved(folder.path() / "resolved.prm");
+    dem::write_sample(folder.path() / "sample.h5", sample);
+    output.emplace(folder.path(), c);
+  });
 
   CoupledRock coupled(c.rock, sample, std::move(far_field), std::move(interface));
-  PileOutput output(folder.path(), c);
   equilibrate(coupled, c.rock.balance, 200'000);
-  Installation run(c, coupled, output);
+  Installation run(c, coupled, output ? &*output : nullptr);
   run.run();
 
   const double seconds = dem::wall_clock() - start;
-  write_summary(folder.path() / "summary.json", c, run, coupled, seconds);
-  print_summary(folder.path(), c, run, coupled, seconds);
+  const std::size_t n_debris = count_debris(coupled.rock, c.rock.lip);
+  on_first_rank([&] {
+    write_summary(folder.path() / "summary.json", run, coupled, n_debris, seconds);
+  });
+  print_summary(folder.path(), c, run, coupled, n_debris, seconds);
   return 0;
 }
 

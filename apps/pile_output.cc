@@ -51,14 +51,13 @@ void PileOutput::record(const PileRecord& r)
                 e.plastic + e.residue, e.slip, e.damping});
 }
 
-void PileOutput::frame(double time, const CoupledRock& coupled)
+void PileOutput::frame(double time, const dem::Rock& rock, const CoupledRock& coupled)
 {
   const auto file = [&](const char* what, const char* extension) {
     char name[64];
     std::snprintf(name, sizeof name, "%s_%04d.%s", what, n_frames_, extension);
     return fields_ / name;
   };
-  const dem::Rock& rock = coupled.rock;
 
   const auto particles = file("particles", "vtp");
   dem::write_particles(particles, rock, coupled.x_0);

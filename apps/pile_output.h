@@ -31,7 +31,8 @@ public:
 
   void record(const PileRecord& r);
   /// Particles, bonds, pile and far field at this time [s].
-  void frame(double time, const CoupledRock& coupled);
+  /// @param rock the whole of it
+  void frame(double time, const dem::Rock& rock, const CoupledRock& coupled);
 
 private:
   std::filesystem::path fields_;

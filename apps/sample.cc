@@ -3,6 +3,7 @@
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
 #include "apps/pile_case.h"
+#include "apps/ranks.h"
 #include "dem/io/rock_fields.h"
 
 #include <iostream>
@@ -28,16 +29,18 @@ int run_sample(const JobOptions& options)
                 "mergel sample makes the specimen: leave the key empty");
   const OutputFolder folder(options.output,
                             options.overwrite ? Earlier::overwrite : Earlier::keep);
-  folder.check({options.case_file});
+  on_first_rank([&] { folder.check({options.case_file}); });
 
   make_far_field(c.rock); // sets the faces around the side
   const dem::Sample sample = obtain_sample(file, c.rock);
   std::cout << report(c.rock, sample) << '\n';
 
-  folder.commit({options.case_file});
-  file.write_resolved(folder.path() / "resolved.prm");
   const auto path = folder.path() / "sample.h5";
-  dem::write_sample(path, sample);
+  on_first_rank([&] {
+    folder.commit({options.case_file});
+    file.write_resolved(folder.path() / "resolved.prm");
+    dem::write_sample(path, sample);
+  });
   std::cout << "specimen: " << path.string()
             << "\nuse it with --set \"Specimen/file=" << path.string() << "\"\n";
   return 0;

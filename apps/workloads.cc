@@ -377,7 +377,7 @@ std::size_t count_contacts(const Rock& rock)
 
 std::uint64_t checksum(const Particles& p)
 {
-  std::vector<std::size_t> order(p.n_owned);
+  std::vector<std::size_t> order(p.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return p.id[a] < p.id[b]; });

@@ -11,7 +11,7 @@ InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
   const Nodal& v_fem = exchange.far_field_velocities();
 
   // What the far field gets and what the grains feel sum to nothing.
-  dem::Vec3 force = wall.force_on_grains, moment = wall.moment_on_grains;
+  dem::Vec3 force = wall.force_on_grains.value(), moment = wall.moment_on_grains.value();
   double power = 0.0, sum_f = 0.0, sum_m = 0.0, sum_p = 0.0;
   for (std::size_t k = 0; k < wall.f.size(); ++k) {
     const dem::Vec3 f = wall.f[k].value();
@@ -28,7 +28,7 @@ InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
     return whole > 0.0 ? part / whole : 0.0;
   };
   return {share(force.norm(), sum_f), share(moment.norm(), sum_m),
-          share(std::abs(power - wall.contact_power), sum_p)};
+          share(std::abs(power - wall.contact_power.value()), sum_p)};
 }
 
 } // namespace mergel::coupling

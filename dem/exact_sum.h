@@ -9,6 +9,8 @@
 
 namespace mergel::dem {
 
+__extension__ typedef __int128 ExactWide;
+
 /// Sum in fixed point: terms are rounded to a multiple of the quantum and added as
 /// integers.
 ///
@@ -30,7 +32,7 @@ public:
           "a force, power or energy is out of the range of the exact sums: " +
           std::to_string(term) + ", at most " + std::to_string(0x1p100 / scale) +
           " (SI): the run is unstable");
-    sum_ += static_cast<Wide>(scaled); // from 2^53 on a double is a whole number
+    sum_ += static_cast<ExactWide>(scaled); // from 2^53 on a double is a whole number
   }
   ExactSum& operator+=(const ExactSum& other)
   {
@@ -39,19 +41,23 @@ public:
   }
   double value() const { return static_cast<double>(sum_) / scale; }
   void clear() { sum_ = 0; }
+  ExactWide& raw() { return sum_; } ///< in quanta; for sums over ranks
 
 private:
-  static constexpr double scale = static_cast<double>(std::int64_t{1} << exponent);
-  __extension__ typedef __int128 Wide;
-  Wide sum_ = 0;
+  static constexpr double scale =
+      static_cast<double>(std::uint64_t{1} << (exponent / 2)) *
+      static_cast<double>(std::uint64_t{1} << (exponent - exponent / 2));
+  ExactWide sum_ = 0;
 };
 
 using ForceSum = ExactSum<50>;  ///< [N]: quantum 9e-16 N, terms below 1e15 N
+using MomentSum = ExactSum<80>; ///< [N m] or [W]: quantum 8e-25, terms below 1e6
 using EnergySum = ExactSum<61>; ///< [J]: quantum 4e-19 J, terms below 5e11 J
 
 /// Order-free sum of vectors.
-struct VectorSum {
-  ForceSum x, y, z;
+template <class Sum>
+struct ExactVector {
+  Sum x, y, z;
 
   void add(const Vec3& a)
   {
@@ -62,5 +68,6 @@ struct VectorSum {
   Vec3 value() const { return {x.value(), y.value(), z.value()}; }
   void clear() { *this = {}; }
 };
+using VectorSum = ExactVector<ForceSum>;
 
 } // namespace mergel::dem

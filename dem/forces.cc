@@ -128,8 +128,8 @@ void prefetch(const Particles& p, Index j)
 template <IsBondLaw Law>
 void return_lanes(const Law& b, const BondShape<Lanes>& s, const Lanes& S,
                   const Mask& yields, const Four& q, const EffectiveLoads<Lanes>& old,
-                  EffectiveLoads<Lanes>& load, BondBlock& h, Particles& p,
-                  PairLosses& losses)
+                  EffectiveLoads<Lanes>& load, BondBlock& h, const Pair* pairs,
+                  Particles& p, PairLosses& losses)
 {
   for (int l = 0; l < q.count; ++l) {
     if (!yields[l]) continue;
@@ -145,21 +145,26 @@ void return_lanes(const Law& b, const BondShape<Lanes>& s, const Lanes& S,
     load.T[l] = r.loads.T;
     h.u_p[l] = r.state.u_p;
     h.intact[l] = r.state.intact;
-    ++losses.yielded;
-    losses.plastic.add(r.loss);
+    const bool counts = p.owns(q.i[l]);
+    if (counts) {
+      ++losses.yielded;
+      losses.plastic.add(r.loss);
+    }
     if (r.state.intact > 0.0) continue;
-    losses.residue.add(r.residue);
-    ++losses.broken;
     --p.n_bonds[q.i[l]];
     --p.n_bonds[q.j[l]];
+    if (!counts) continue;
+    losses.residue.add(r.residue);
+    ++losses.broken;
+    losses.breakages.push_back({pairs[l], 0.5 * (p.body[q.i[l]].x + p.body[q.j[l]].x)});
   }
 }
 
-void add_slip(const Lanes& loss, int count, PairLosses& losses)
+void add_slip(const Lanes& loss, const Four& q, const Particles& p, PairLosses& losses)
 {
   if (!any(loss != Lanes{})) return;
-  for (int l = 0; l < count; ++l)
-    if (loss[l] != 0.0) losses.slip.add(loss[l]);
+  for (int l = 0; l < q.count; ++l)
+    if (loss[l] != 0.0 && p.owns(q.i[l])) losses.slip.add(loss[l]);
 }
 
 template <IsBondLaw Law>
@@ -190,7 +195,7 @@ void add_forces_of(const Law& bond, const LinearMaterial& beside, const Periodic
     const Mask yields = ~is_elastic(bond, shape, load) & (h.intact > Lanes{});
     if (any(yields)) {
       const EffectiveLoads<Lanes> old{load.N - shape.k_n * k.du_n, V, M, h.T};
-      return_lanes(bond, shape, S, yields, q, old, load, h, p, losses);
+      return_lanes(bond, shape, S, yields, q, old, load, h, &bonds.pairs[first], p, losses);
     }
     const Mask lives = h.intact > Lanes{};
     const Triple<Lanes> zero{};
@@ -202,7 +207,7 @@ void add_forces_of(const Law& bond, const LinearMaterial& beside, const Periodic
     const auto contact = linear_contact(beside, linear_stiffness(beside, r, k.inv_L), k.gap,
                                         beside.g_a * S, k.du_s, turned(h.f_s, k));
     h.f_s = contact.f_s;
-    add_slip(contact.slip_loss, q.count, losses);
+    add_slip(contact.slip_loss, q, p, losses);
 
     const Lanes N = select(lives, load.N, Lanes{});
     const Triple<Lanes> F =
@@ -268,7 +273,7 @@ void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell
     const auto contact =
         linear_contact(material, linear_stiffness(material, r, k.inv_L), k.gap,
                        material.g_a * S, k.du_s, turned({f_s[0], f_s[1], f_s[2]}, k));
-    add_slip(contact.slip_loss, q.count, losses);
+    add_slip(contact.slip_loss, q, p, losses);
 
     const Triple<Lanes> F = contact.f_s - k.n * contact.f_n;
     const Rows rows = to_rows(k, F, Triple<Lanes>{});
@@ -300,15 +305,16 @@ PairEnergy pair_energy(const PairMaterials& material, const PeriodicCell& cell,
                        const Particles& p, const Bonds& bonds, const Contacts& contacts)
 {
   PairEnergy e;
-  const auto contact_energy = [&](const Pair& pair, const Vec3& f_s) {
-    return read_contact(pair, f_s, p, cell, material.contact).energy;
+  const auto add_contact = [&](const Pair& pair, const Vec3& f_s) {
+    e.contacts.add(read_contact(pair, f_s, p, cell, material.contact).energy);
   };
   for (std::size_t b = 0; b < bonds.size(); ++b) {
-    e.bonds += read_bond(bonds, b, p, cell, material.bond).energy;
-    e.contacts += contact_energy(bonds.pairs[b], shear_beside(bonds, b));
+    if (!p.owns(bonds.pairs[b].i)) continue;
+    e.bonds.add(read_bond(bonds, b, p, cell, material.bond).energy);
+    add_contact(bonds.pairs[b], shear_beside(bonds, b));
   }
   for (std::size_t c = 0; c < contacts.pairs.size(); ++c)
-    e.contacts += contact_energy(contacts.pairs[c], contacts.shear[c].f_s);
+    if (p.owns(contacts.pairs[c].i)) add_contact(contacts.pairs[c], contacts.shear[c].f_s);
   return e;
 }
 

@@ -7,13 +7,21 @@
 
 namespace mergel::dem {
 
-/// What the pairs of one step dissipate and how many bonds break.
+/// Where a bond between grains broke.
+struct Breakage {
+  Pair pair;
+  Vec3 x = Vec3::Zero(); ///< half way between the centres [m]
+};
+
+/// What pairs and walls dissipate and how many bonds break. A pair counts where its first
+/// grain is owned.
 struct PairLosses {
   EnergySum slip;    ///< friction [J]
   EnergySum plastic; ///< plasticity and damage of bonds [J]
   EnergySum residue; ///< still stored in bonds that broke [J]
   std::size_t broken = 0;
-  std::size_t yielded = 0; ///< bonds that yielded, summed over steps
+  std::size_t yielded = 0;         ///< bonds that yielded, summed over steps
+  std::vector<Breakage> breakages; ///< of bonds between grains, in no order
 };
 
 /// Both materials of a pair: of the bond and of the contact beside it.
@@ -43,9 +51,10 @@ ContactReading read_contact(const Pair& pair, const Vec3& f_s, const Particles& 
 /// Shear force of the contact beside a bond [N].
 Vec3 shear_beside(const Bonds& bonds, std::size_t b);
 
-/// Elastic energy [J] of bonds, and of contacts with those beside the bonds.
+/// Elastic energy [J] of bonds, and of contacts with those beside the bonds; a pair counts
+/// where its first grain is owned.
 struct PairEnergy {
-  double bonds = 0.0, contacts = 0.0;
+  EnergySum bonds, contacts;
 };
 PairEnergy pair_energy(const PairMaterials& material, const PeriodicCell& cell,
                        const Particles& p, const Bonds& bonds, const Contacts& contacts);

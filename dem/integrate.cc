@@ -1,5 +1,6 @@
 #include "dem/integrate.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mergel::dem {
@@ -21,7 +22,7 @@ double kicked(double v, double f, double alpha, double dt_over_m, double dt, dou
 void kick(Particles& p, const Motion& motion, double dt, KickWork& work)
 {
   const double alpha = motion.damping;
-  for (std::size_t i = 0; i < p.n_owned; ++i) {
+  p.for_owned([&](Index i) {
     Body& b = p.body[i];
     const Load& load = p.load[i];
     const Vec3 weight = b.m * motion.gravity;
@@ -40,12 +41,12 @@ void kick(Particles& p, const Motion& motion, double dt, KickWork& work)
     }
     work.damping.add(damped);
     work.gravity.add(0.5 * dt * weight.dot(v_old + b.v));
-  }
+  });
 }
 
 void drift(Particles& p, double dt)
 {
-  for (std::size_t i = 0; i < p.n_owned; ++i) {
+  p.for_owned([&](Index i) {
     Body& b = p.body[i];
     const Vec3 dx = dt * b.v;
     const double limit = b.R / 20.0;
@@ -60,30 +61,31 @@ void drift(Particles& p, double dt)
           std::to_string(b.omega.norm() * dt) +
           " rad in one step (at most 0.05): lower `Motion/time step safety`");
     b.x += dx;
-  }
+  });
 }
 
 void clear_loads(Particles& p)
 {
-  for (Load& l : p.load) l = Load{};
+  for (const IndexRange& r : p.present())
+    std::fill(p.load.begin() + r.begin, p.load.begin() + r.end, Load{});
 }
 
-double kinetic_energy(const Particles& p)
+EnergySum kinetic_energy_sum(const Particles& p)
 {
   EnergySum e;
-  for (std::size_t i = 0; i < p.n_owned; ++i) {
+  p.for_owned([&](Index i) {
     const Body& b = p.body[i];
     e.add(0.5 * (b.m * b.v.squaredNorm() + b.inertia() * b.omega.squaredNorm()));
-  }
-  return e.value();
+  });
+  return e;
 }
 
-double mean_resultant(const Particles& p, const Motion& motion)
+ForceSum sum_of_resultants(const Particles& p, const Motion& motion)
 {
   ForceSum sum;
-  for (std::size_t i = 0; i < p.n_owned; ++i)
-    sum.add((p.load[i].f + p.body[i].m * motion.gravity).norm());
-  return p.n_owned == 0 ? 0.0 : sum.value() / static_cast<double>(p.n_owned);
+  p.for_owned(
+      [&](Index i) { sum.add((p.load[i].f + p.body[i].m * motion.gravity).norm()); });
+  return sum;
 }
 
 } // namespace mergel::dem

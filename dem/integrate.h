@@ -31,13 +31,17 @@ void kick(Particles& p, const Motion& motion, double dt, KickWork& work);
 ///   in the step, or is not a number
 void drift(Particles& p, double dt);
 
-/// Set the loads to zero.
+/// Set the loads of owned particles and ghosts to zero.
 void clear_loads(Particles& p);
 
 /// Of the owned particles, at half step [J].
-double kinetic_energy(const Particles& p);
+EnergySum kinetic_energy_sum(const Particles& p);
+inline double kinetic_energy(const Particles& p)
+{
+  return kinetic_energy_sum(p).value();
+}
 
-/// Mean over the owned particles of the resultant force, gravity included [N].
-double mean_resultant(const Particles& p, const Motion& motion);
+/// Over the owned particles, the magnitude of the resultant force, gravity included [N].
+ForceSum sum_of_resultants(const Particles& p, const Motion& motion);
 
 } // namespace mergel::dem

@@ -17,7 +17,7 @@ void rebuild_mirror(Mirror& mirror, const Particles& p, double g_a, double skin)
 {
   std::vector<MirrorPair> pairs;
   auto old = mirror.pairs.begin();
-  for (Index i = 0; i < p.n_owned; ++i) {
+  p.for_owned([&](Index i) {
     while (old != mirror.pairs.end() && old->particle < i) ++old;
     const bool known = old != mirror.pairs.end() && old->particle == i;
     const bool near = image_gap(p.body[i]) < (g_a + 2.0 * skin) * p.body[i].S;
@@ -25,7 +25,7 @@ void rebuild_mirror(Mirror& mirror, const Particles& p, double g_a, double skin)
       pairs.push_back(*old);
     else if (near)
       pairs.push_back({i, 0.0, {0.0, 0.0}});
-  }
+  });
   mirror.pairs = std::move(pairs);
 }
 
@@ -76,8 +76,8 @@ double image_pull(const Law& law, double dt, double gap, Particles& p, MirrorPai
 void add_mirror_forces(const PairMaterials& material, double dt, Particles& p,
                        Mirror& mirror, PairLosses& losses)
 {
-  EnergySum energy;
-  VectorSum force;
+  mirror.energy.clear();
+  mirror.force.clear();
   for (MirrorPair& m : mirror.pairs) {
     Body& b = p.body[m.particle];
     Load& load = p.load[m.particle];
@@ -89,20 +89,20 @@ void add_mirror_forces(const PairMaterials& material, double dt, Particles& p,
 
     if (m.bond.intact > 0.0)
       pull += std::visit(
-          [&](const auto& law) { return image_pull(law, dt, gap, p, m, losses, energy); },
+          [&](const auto& law) {
+            return image_pull(law, dt, gap, p, m, losses, mirror.energy);
+          },
           material.bond);
 
     const double closed = material.contact.g_a * b.S - gap;
     if (closed > 0.0) {
       const double k_n = linear_stiffness(material.contact, b.R, 0.5 / b.R).k_n;
       pull -= k_n * closed;
-      energy.add(0.25 * k_n * closed * closed);
+      mirror.energy.add(0.25 * k_n * closed * closed);
     }
     load.f.y() -= pull;
-    force.add({0.0, -pull, 0.0});
+    mirror.force.add({0.0, -pull, 0.0});
   }
-  mirror.energy = energy.value();
-  mirror.force = force.value();
 }
 
 void hold_mirror_spin(const Mirror& mirror, Particles& p)

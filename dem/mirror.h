@@ -22,8 +22,9 @@ struct MirrorPair {
 /// tension.
 struct Mirror {
   std::vector<MirrorPair> pairs; ///< ascending in particle
-  double energy = 0.0;           ///< of bonds and contacts, the half that belongs to us [J]
-  Vec3 force = Vec3::Zero();     ///< of the plane on the particles [N]
+  EnergySum
+      energy; ///< of bonds and contacts of owned grains, the half that belongs to us [J]
+  VectorSum force; ///< of the plane on owned grains [N]
 };
 
 /// Candidates: gap to the image below (g_a + skin) S; bonded pairs always stay.

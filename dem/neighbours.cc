@@ -151,6 +151,27 @@ std::vector<Pair> sorted(const std::vector<Pair>& found, std::size_t n_particles
   return out;
 }
 
+/// Grains that may meet an owned one: all of them, or those in the box of the owned ones
+/// widened by `reach`. In a periodic cell all.
+std::vector<char> near_owned(const Particles& p, const Wrapped& w, const PeriodicCell& cell,
+                             double reach)
+{
+  if (p.n_owned() == p.size() || cell.is_periodic()) return std::vector<char>(p.size(), 1);
+  std::vector<char> is_near(p.size(), 0);
+  if (p.n_owned() == 0) return is_near;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  p.for_owned([&](Index i) {
+    low = low.cwiseMin(w.x[i]);
+    high = high.cwiseMax(w.x[i]);
+  });
+  low.array() -= reach;
+  high.array() += reach;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    is_near[i] =
+        (w.x[i].array() >= low.array()).all() && (w.x[i].array() <= high.array()).all();
+  return is_near;
+}
+
 } // namespace
 
 std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, double range)
@@ -165,10 +186,12 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
                 " m for its largest particles; enlarge the cell or lower the upscaling");
 
   const Wrapped w = wrap(p, cell);
-  Vec3 low = w.x.front(), high = w.x.front();
+  const std::vector<char> is_near = near_owned(p, w, cell, 2.0 * largest);
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   std::vector<Level> levels;
   std::vector<std::size_t> level_of(p.size());
   for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!is_near[i]) continue;
     low = low.cwiseMin(w.x[i]);
     high = high.cwiseMax(w.x[i]);
     const double reach = reach_of(p.body[i], range);
@@ -183,13 +206,15 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
 
   std::vector<Pair> found;
   for (Index i = 0; i < p.size(); ++i) {
+    if (!is_near[i]) continue;
+    const bool is_mine = p.owns(i);
     const double reach_i = reach_of(p.body[i], range);
     for (std::size_t k = 0; k <= level_of[i]; ++k) {
       const Level& l = levels[k];
       if (l.all.empty()) continue;
       const bool same = k == level_of[i];
       visit_around(l, w.x[i], cell, [&](Index j, const Shift& s) {
-        if (same && j <= i) return;
+        if ((same && j <= i) || !(is_mine || p.owns(j))) return;
         const double reach = reach_i + reach_of(p.body[j], range);
         if ((w.x[j] + cell.offset(s) - w.x[i]).squaredNorm() >= reach * reach) return;
         Pair q{i, j, {}};
@@ -209,10 +234,11 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
 bool VerletList::is_stale(const Particles& p) const
 {
   if (x_built_.size() != p.size()) return true;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const double allowed = 0.5 * skin_ * p.body[i].S;
-    if ((p.body[i].x - x_built_[i]).squaredNorm() > allowed * allowed) return true;
-  }
+  for (const IndexRange& r : p.owned())
+    for (Index i = r.begin; i < r.end; ++i) {
+      const double allowed = 0.5 * skin_ * p.body[i].S;
+      if ((p.body[i].x - x_built_[i]).squaredNorm() > allowed * allowed) return true;
+    }
   return false;
 }
 

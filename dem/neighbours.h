@@ -6,7 +6,7 @@
 
 namespace mergel::dem {
 
-/// Every pair with gap < range (S_i + S_j)/2, ascending. Cells by size class, a factor of
+/// Every pair with gap < range (S_i + S_j)/2 that touches an owned grain, ascending. Cells by size class, a factor of
 /// two each: linear in the number of particles at any ratio of diameters.
 ///
 /// @param range gap at S = 1 [m], >= 0

@@ -347,7 +347,7 @@ Bonding choose_bonds(const SpecimenSpec& s, const Particles& p, const PeriodicCe
 SpecimenReport describe(const SpecimenSpec& s, const Particles& p, const Bonding& bonding)
 {
   SpecimenReport r;
-  r.n_particles = p.n_owned;
+  r.n_particles = p.n_owned();
   r.n_bonds = bonding.pairs.size();
   r.coordination =
       2.0 * static_cast<double>(r.n_bonds) / static_cast<double>(r.n_particles);

@@ -32,18 +32,38 @@ struct alignas(32) Load {
 };
 static_assert(sizeof(Load) == 64);
 
-/// Structure of arrays: index p names the same grain in every array. [0, n_owned) belong to
-/// this rank, [n_owned, size()) are ghosts. Ids ascend within the owned range.
+/// Indices from begin up to, not including, end.
+struct IndexRange {
+  Index begin, end;
+};
+
+/// Structure of arrays: index p names the same grain in every array and on every rank.
+///
+/// A rank owns some of them and moves these. Of the others it keeps the ghosts up to date,
+/// those that act on grains of its own; the rest of its arrays is as old as the last list
+/// (domain.h).
 struct Particles {
   std::vector<Body> body;
-  std::vector<Load> load;
-  std::vector<std::uint64_t> id; ///< global, never reused
+  std::vector<Load> load;        ///< whole for owned grains, in part for ghosts
+  std::vector<std::uint64_t> id; ///< global, never reused, ascending
   std::vector<int> n_bonds;      ///< living bonds, those to walls and mirror image included
-  std::size_t n_owned = 0;
 
   std::size_t size() const { return body.size(); }
+  std::size_t n_owned() const { return n_owned_; }
+  bool owns(Index p) const { return is_owned_[p] != 0; }
+  /// Owned grains, ascending, in as few runs as their numbering allows.
+  const std::vector<IndexRange>& owned() const { return owned_; }
+  /// Owned grains and ghosts.
+  const std::vector<IndexRange>& present() const { return present_; }
 
-  /// Append an owned grain; its id is its place. Only before ghosts exist.
+  template <class Visit>
+  void for_owned(Visit&& visit) const
+  {
+    for (const IndexRange& r : owned_)
+      for (Index p = r.begin; p < r.end; ++p) visit(p);
+  }
+
+  /// Append an owned grain; its id is its place. Only while all are owned.
   Index add(const Body& b)
   {
     const auto p = static_cast<Index>(size());
@@ -51,9 +71,36 @@ struct Particles {
     load.emplace_back();
     id.push_back(p);
     n_bonds.push_back(0);
-    n_owned = size();
+    is_owned_.push_back(1);
+    n_owned_ = size();
+    owned_ = present_ = {{0, p + 1}};
     return p;
   }
+
+  /// @param is_owned, is_ghost one entry a grain, never both set
+  void set_ownership(std::vector<char> is_owned, const std::vector<char>& is_ghost)
+  {
+    n_owned_ = 0;
+    owned_.clear();
+    present_.clear();
+    const auto append = [](std::vector<IndexRange>& ranges, Index p) {
+      if (!ranges.empty() && ranges.back().end == p)
+        ++ranges.back().end;
+      else
+        ranges.push_back({p, p + 1});
+    };
+    for (Index p = 0; p < size(); ++p) {
+      if (is_owned[p]) append(owned_, p);
+      if (is_owned[p] || is_ghost[p]) append(present_, p);
+      n_owned_ += is_owned[p] != 0;
+    }
+    is_owned_ = std::move(is_owned);
+  }
+
+private:
+  std::vector<char> is_owned_;
+  std::vector<IndexRange> owned_, present_;
+  std::size_t n_owned_ = 0;
 };
 
 /// Mass of a solid sphere [kg].

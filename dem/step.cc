@@ -7,8 +7,19 @@ namespace mergel::dem {
 
 namespace {
 
+/// Those of others that our pairs reach become our ghosts.
+void choose_ghosts(Rock& rock)
+{
+  if (rock.domain.is_alone()) return;
+  std::vector<char> is_needed(rock.particles.size(), 0);
+  for (const auto* pairs : {&rock.bonds.pairs, &rock.contacts.pairs})
+    for (const Pair& q : *pairs) is_needed[q.i] = is_needed[q.j] = 1;
+  rock.domain.choose_ghosts(rock.particles, is_needed);
+}
+
 void rebuild_lists(Rock& rock)
 {
+  rock.domain.gather_motion(rock.particles);
   const Particles& p = rock.particles;
   const double skin = rock.list.skin();
   rock.list.rebuild(p, rock.cell, rock.bonds, rock.contacts);
@@ -20,6 +31,26 @@ void rebuild_lists(Rock& rock)
   for (PileWall& w : rock.piles)
     w.contacts.rebuild(p, w.material.g_a, skin, w.pile.tip(),
                        [&](const Body& b) { return w.pile.meet(b).touch.gap; });
+  choose_ghosts(rock);
+}
+
+/// What acts on walls, from all ranks.
+void sum_wall_forces(Rock& rock)
+{
+  if (rock.domain.is_alone()) return;
+  ExactReduction sums;
+  for (PlaneWall& w : rock.planes) sums.add(w.force);
+  for (Wall& w : rock.walls) {
+    for (VectorSum& f : w.f) sums.add(f);
+    sums.add(w.contact_power);
+    sums.add(w.force_on_grains);
+    sums.add(w.moment_on_grains);
+  }
+  for (PileWall& w : rock.piles) {
+    sums.add(w.load.cone);
+    sums.add(w.load.shaft);
+  }
+  sums.run(rock.domain);
 }
 
 /// Half of the skin belongs to the particles, half to the walls.
@@ -53,8 +84,10 @@ void add_forces(Rock& rock, double dt)
     part += to - from;
     from = to;
   };
+  rock.domain.update_ghosts(p);
+  lap(rock.times.exchange);
   for (Wall& w : rock.walls) update_normals(w);
-  if (lists_are_stale(rock)) rebuild_lists(rock);
+  if (rock.domain.any(lists_are_stale(rock))) rebuild_lists(rock);
   clear_loads(p);
   lap(rock.times.lists);
 
@@ -72,6 +105,8 @@ void add_forces(Rock& rock, double dt)
     w.load = add_pile_forces(w.material, w.pile, dt, p, w.contacts, rock.losses);
   for (const Mirror& m : rock.mirrors) hold_mirror_spin(m, p);
   lap(rock.times.walls);
+  sum_wall_forces(rock);
+  lap(rock.times.exchange);
 }
 
 double stable_time_step(const Rock& rock, double safety)
@@ -83,13 +118,19 @@ double stable_time_step(const Rock& rock, double safety)
     add_surface_stiffness(s, w.material, p, w.contacts);
   for (const Wall& w : rock.walls) add_wall_stiffness(s, rock.material.bond, p, w);
   for (const PileWall& w : rock.piles) add_surface_stiffness(s, w.material, p, w.contacts);
-  return time_step(s, p, safety, rock.motion);
+  return rock.domain.least(time_step(s, p, safety, rock.motion));
 }
 
 double unbalanced_ratio(const Rock& rock)
 {
-  return unbalanced_ratio(mean_resultant(rock.particles, rock.motion), rock.particles,
-                          rock.material, rock.cell, rock.bonds, rock.contacts);
+  ForceSum resultants = sum_of_resultants(rock.particles, rock.motion);
+  ForceSum forces = sum_of_pair_forces(rock.particles, rock.material, rock.cell, rock.bonds,
+                                       rock.contacts);
+  ExactReduction sums;
+  sums.add(resultants);
+  sums.add(forces);
+  sums.run(rock.domain);
+  return forces.value() > 0.0 ? resultants.value() / forces.value() : 0.0;
 }
 
 void check_overlaps(const Rock& rock)
@@ -113,7 +154,7 @@ void check_overlaps(const Rock& rock)
 WallPower wall_power(const Rock& rock)
 {
   WallPower power;
-  for (const PlaneWall& w : rock.planes) power.walls -= w.force.dot(w.plane.v);
+  for (const PlaneWall& w : rock.planes) power.walls -= w.force.value().dot(w.plane.v);
   for (const Wall& w : rock.walls)
     for (std::size_t k = 0; k < w.f.size(); ++k) power.walls -= w.f[k].value().dot(w.v[k]);
   for (const PileWall& w : rock.piles)

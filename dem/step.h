@@ -1,6 +1,7 @@
 /// One DEM step, and the state that it moves.
 #pragma once
 
+#include "dem/domain.h"
 #include "dem/integrate.h"
 #include "dem/mirror.h"
 #include "dem/neighbours.h"
@@ -30,7 +31,7 @@ struct PlaneWall {
   Plane plane;
   LinearMaterial material;
   SurfaceContacts contacts;
-  Vec3 force = Vec3::Zero(); ///< on the plane in the last step [N]
+  VectorSum force; ///< on the plane in the last step, of all ranks [N]
 };
 
 /// The pile and the spheres at it.
@@ -38,20 +39,26 @@ struct PileWall {
   Pile pile;
   LinearMaterial material;
   SurfaceContacts contacts;
-  PileLoad load; ///< in the last step
+  PileLoad load; ///< in the last step, of all ranks
 };
 
 /// Wall-clock time spent in the parts of a step [s]; for the closing summary, never for
 /// physics.
 struct StepTimes {
-  double motion = 0.0, lists = 0.0, bonds = 0.0, contacts = 0.0, walls = 0.0;
+  double motion = 0.0, lists = 0.0, bonds = 0.0, contacts = 0.0, walls = 0.0,
+         exchange = 0.0; ///< with other ranks
 
-  double total() const { return motion + lists + bonds + contacts + walls; }
+  double total() const { return motion + lists + bonds + contacts + walls + exchange; }
 };
 
 /// A bonded rock with everything that acts on it. What a run does not have is an empty
 /// list.
+///
+/// On several ranks each holds all grains, and of bonds, contacts and walls what touches its
+/// own (distribute.h). Losses and works are of owned grains, but for wall_work and pile_work,
+/// which every rank knows in full.
 struct Rock {
+  Domain domain;
   Particles particles;
   PeriodicCell cell;
   Bonds bonds;
@@ -74,7 +81,8 @@ struct Rock {
 };
 
 /// Forces at the present positions, from histories carried over the step dt [s] that ends
-/// now. Rebuilds the lists when they are stale.
+/// now. Ghosts follow their owners first; lists are rebuilt when they are stale. Collective,
+/// as is all below.
 void add_forces(Rock& rock, double dt);
 
 /// kick, drift, move the walls by `move_walls(dt)`, forces.

@@ -42,8 +42,8 @@ Pile::Meeting Pile::meet(const Body& b) const
   return {touch, part};
 }
 
-Vec3 add_plane_forces(const LinearMaterial& material, const Plane& plane, double dt,
-                      Particles& p, SurfaceContacts& contacts, PairLosses& losses)
+VectorSum add_plane_forces(const LinearMaterial& material, const Plane& plane, double dt,
+                           Particles& p, SurfaceContacts& contacts, PairLosses& losses)
 {
   VectorSum sum;
   for (WallContact& c : contacts.contacts()) {
@@ -54,7 +54,7 @@ Vec3 add_plane_forces(const LinearMaterial& material, const Plane& plane, double
     const Touch touch = plane.touch(body);
     sum.add(-add_wall_contact(material, touch, dt, body, p.load[c.particle], c, losses));
   }
-  return sum.value();
+  return sum;
 }
 
 PileLoad add_pile_forces(const LinearMaterial& material, const Pile& pile, double dt,

@@ -64,9 +64,10 @@ public:
   void rebuild(const Particles& p, double g_a, double skin, const Vec3& place, Gap&& gap_of)
   {
     std::vector<WallContact> near;
-    for (Index i = 0; i < p.n_owned; ++i)
+    p.for_owned([&](Index i) {
       if (gap_of(p.body[i]) < (g_a + skin) * p.body[i].S)
         near.push_back({i, 0, {0, 0, 0}, 0.0});
+    });
     contacts_ = carry_history(std::move(near), contacts_);
     place_ = place;
   }
@@ -78,10 +79,11 @@ public:
   std::vector<WallContact>& contacts() { return contacts_; }
   const std::vector<WallContact>& contacts() const { return contacts_; }
 
-  double energy() const
+  /// Stored by owned grains [J].
+  EnergySum energy() const
   {
-    double e = 0.0;
-    for (const WallContact& c : contacts_) e += c.energy;
+    EnergySum e;
+    for (const WallContact& c : contacts_) e.add(c.energy);
     return e;
   }
 
@@ -90,12 +92,12 @@ private:
   Vec3 place_ = Vec3::Zero();
 };
 
-/// Add plane contacts; returns the resultant on the plane [N].
+/// Add plane contacts; returns the resultant of owned grains on the plane [N].
 /// @throws NumericalError when a centre is behind the plane
-Vec3 add_plane_forces(const LinearMaterial& material, const Plane& plane, double dt,
-                      Particles& p, SurfaceContacts& contacts, PairLosses& losses);
+VectorSum add_plane_forces(const LinearMaterial& material, const Plane& plane, double dt,
+                           Particles& p, SurfaceContacts& contacts, PairLosses& losses);
 
-/// Add pile contacts.
+/// Add pile contacts; returns the resultants of owned grains.
 PileLoad add_pile_forces(const LinearMaterial& material, const Pile& pile, double dt,
                          Particles& p, SurfaceContacts& contacts, PairLosses& losses);
 

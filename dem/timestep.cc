@@ -98,31 +98,31 @@ double time_step(const StiffnessSums& s, const Particles& p, double safety,
                  const Motion& motion)
 {
   double dt2 = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < p.n_owned; ++i) {
+  p.for_owned([&](Index i) {
     if (s.k[i] > 0.0) dt2 = std::min(dt2, 2.0 * p.body[i].m / s.k[i]);
     if (s.k_rot[i] > 0.0 && (p.n_bonds[i] > 0 || motion.free_rotation))
       dt2 = std::min(dt2, 2.0 * p.body[i].inertia() / s.k_rot[i]);
-  }
+  });
   return safety * std::sqrt(dt2 / (1.0 + motion.damping));
 }
 
-double unbalanced_ratio(double mean_resultant, const Particles& p,
-                        const PairMaterials& material, const PeriodicCell& cell,
-                        const Bonds& bonds, const Contacts& contacts)
+ForceSum sum_of_pair_forces(const Particles& p, const PairMaterials& material,
+                            const PeriodicCell& cell, const Bonds& bonds,
+                            const Contacts& contacts)
 {
-  // Each pair force acts on two particles.
+  // Each pair force acts on two particles; a pair belongs to the owner of its first.
   ForceSum sum;
   const auto contact_force = [&](const Pair& q) {
     return read_contact(q, Vec3::Zero(), p, cell, material.contact).f_n;
   };
   for (std::size_t b = 0; b < bonds.size(); ++b) {
+    if (!p.owns(bonds.pairs[b].i)) continue;
     const BondReading r = read_bond(bonds, b, p, cell, material.bond);
     sum.add(2.0 * (std::hypot(r.N, r.V.norm()) + contact_force(bonds.pairs[b])));
   }
-  for (const Pair& q : contacts.pairs) sum.add(2.0 * contact_force(q));
-  const double mean_force =
-      p.n_owned == 0 ? 0.0 : sum.value() / static_cast<double>(p.n_owned);
-  return mean_force > 0.0 ? mean_resultant / mean_force : 0.0;
+  for (const Pair& q : contacts.pairs)
+    if (p.owns(q.i)) sum.add(2.0 * contact_force(q));
+  return sum;
 }
 
 } // namespace mergel::dem

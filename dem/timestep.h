@@ -32,14 +32,14 @@ void add_mirror_stiffness(StiffnessSums& s, const PairMaterials& material,
 /// A pair of masses m on a spring k has omega^2 = 2 k/m at most, stable to 2/omega; local
 /// damping acts as 1 + alpha times the force while it brakes.
 /// Spin counts where the rotation rule lets a particle spin.
+/// Of the owned particles: the least of all ranks is the step.
 /// @param safety in (0, 1]
 double time_step(const StiffnessSums& s, const Particles& p, double safety,
                  const Motion& motion);
 
-/// Mean of the resultant over particles divided by the mean force of pairs over particles:
-/// the unbalanced-force ratio [-]. 0 when nothing acts.
-double unbalanced_ratio(double mean_resultant, const Particles& p,
-                        const PairMaterials& material, const PeriodicCell& cell,
-                        const Bonds& bonds, const Contacts& contacts);
+/// Over owned particles, the magnitudes of the pair forces on them [N].
+ForceSum sum_of_pair_forces(const Particles& p, const PairMaterials& material,
+                            const PeriodicCell& cell, const Bonds& bonds,
+                            const Contacts& contacts);
 
 } // namespace mergel::dem

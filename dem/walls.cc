@@ -186,11 +186,11 @@ Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
   return wall;
 }
 
-double Wall::energy() const
+EnergySum Wall::energy() const
 {
-  double e = 0.0;
-  for (const WallContact& c : contacts) e += c.energy;
-  for (const WallBond& b : bonds) e += b.energy;
+  EnergySum e;
+  for (const WallContact& c : contacts) e.add(c.energy);
+  for (const WallBond& b : bonds) e.add(b.energy);
   return e;
 }
 
@@ -326,7 +326,7 @@ void rebuild_wall(Wall& wall, const Particles& p, double skin)
   });
 
   std::vector<std::pair<int, int>> hits; // patch, triangle
-  for (Index i = 0; i < p.n_owned; ++i) {
+  p.for_owned([&](Index i) {
     const Body& b = p.body[i];
     const double reach = b.R + (wall.material.g_a + skin) * b.S;
     hits.clear();
@@ -347,7 +347,7 @@ void rebuild_wall(Wall& wall, const Particles& p, double skin)
       }
       near.back().push_back(t);
     }
-  }
+  });
   wall.contacts = carry_history(std::move(found), wall.contacts);
   wall.near = std::move(near);
   wall.x_listed = wall.x;
@@ -367,7 +367,7 @@ void bond_to_wall(Wall& wall, Particles& p, double limit)
   std::vector<std::vector<int>> triangles_of(uz(wall.topology.n_patches));
   for (std::size_t t = 0; t < wall.topology.triangles.size(); ++t)
     triangles_of[uz(wall.topology.patch[t])].push_back(static_cast<int>(t));
-  for (Index i = 0; i < p.n_owned; ++i) {
+  p.for_owned([&](Index i) {
     const Body& b = p.body[i];
     // One bond per patch in reach: a particle in a corner is held by both sides.
     for (const std::vector<int>& own : triangles_of) {
@@ -382,7 +382,7 @@ void bond_to_wall(Wall& wall, Particles& p, double limit)
       wall.bonds.push_back(bond);
       ++p.n_bonds[i];
     }
-  }
+  });
 }
 
 namespace {
@@ -438,12 +438,13 @@ void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p, W
                      PairLosses& losses)
 {
   for (VectorSum& f : wall.f) f.clear();
-  wall.contact_power = 0.0;
-  wall.force_on_grains = wall.moment_on_grains = Vec3::Zero();
+  wall.contact_power.clear();
+  wall.force_on_grains.clear();
+  wall.moment_on_grains.clear();
   const auto book = [&wall](const Vec3& f, const Vec3& point, const Vec3& v) {
-    wall.contact_power -= f.dot(v);
-    wall.force_on_grains += f;
-    wall.moment_on_grains += point.cross(f);
+    wall.contact_power.add(-f.dot(v));
+    wall.force_on_grains.add(f);
+    wall.moment_on_grains.add(point.cross(f));
   };
 
   for (std::size_t c = 0; c < wall.contacts.size(); ++c) {

@@ -52,20 +52,20 @@ struct WallBond {
 struct Wall {
   WallTopology topology;
   std::vector<Vec3> x, v;     ///< nodes [m], [m/s]; whoever moves the wall writes them
-  std::vector<VectorSum> f;   ///< on the nodes [N], of the last step
+  std::vector<VectorSum> f;   ///< on the nodes [N], of the last step, of all ranks
   std::vector<Vec3> x_listed; ///< nodes when the candidates were found [m]
   std::vector<WallContact> contacts;  ///< candidates, ascending in (particle, patch)
   std::vector<std::vector<int>> near; ///< by contact: triangles of the patch within reach
   std::vector<WallBond> bonds;        ///< ascending in particle
   LinearMaterial material;
-  /// Power of the contact and bond forces at their points of action [W], of the last step.
-  double contact_power = 0.0;
-  Vec3 force_on_grains = Vec3::Zero(); ///< sum of the same forces [N]
-  Vec3 moment_on_grains =
-      Vec3::Zero();          ///< about the origin, at their points of action [N m]
+  /// Of the contact and bond forces in the last step, of all ranks: power at their points
+  /// of action [W], sum [N], moment about the origin at the points of action [N m].
+  MomentSum contact_power;
+  VectorSum force_on_grains;
+  ExactVector<MomentSum> moment_on_grains;
   std::vector<Vec3> normals; ///< unit, by triangle; see update_normals()
 
-  double energy() const; ///< stored by contacts and bonds [J]
+  EnergySum energy() const; ///< stored by contacts and bonds of owned grains [J]
 };
 
 Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
@@ -109,8 +109,8 @@ void bond_to_wall(Wall& wall, Particles& p, double limit);
 /// Add contacts and bonds to p.load and wall.f over the step dt [s] that ends now.
 /// @param yields bonds follow the bond law; otherwise they stay elastic
 /// @throws NumericalError naming the particle that is on the wrong side
-void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p,
-                     Wall& wall, PairLosses& losses);
+void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p, Wall& wall,
+                     PairLosses& losses);
 
 /// Point and velocity of an anchor.
 Vec3 at(const std::vector<Vec3>& nodal, const WallTopology& t, const Anchor& a);

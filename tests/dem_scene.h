@@ -125,7 +125,7 @@ struct Scene {
   double stored() const
   {
     const PairEnergy e = pair_energy(material, cell, p, bonds, contacts);
-    return e.bonds + e.contacts;
+    return e.bonds.value() + e.contacts.value();
   }
 
   Vec3 momentum() const

@@ -20,8 +20,9 @@ for case_file in "$root"/apps/cases/bond_*.prm; do
   run=$(basename "$case_file" .prm)
   "$mergel" bond "$case_file" --output "$run" >"$run.log" || fail "$run: $(cat "$run.log")"
   holds_nan "$run" && fail "$run holds a NaN"
-  # Nothing but round-off is left: 1e-16 of the distance of the centres in displacements of 1e-4 m.
-  awk -v e="$(figure "$run" "energy error [-]")" 'BEGIN { exit !(e < 1e-9) }' ||
+  # Round-off alone (1e-13) while the bond acts; where the contact closes, it does so within a step,
+  # of which the trapezoid of the work takes the whole: 4e-6 with these steps.
+  awk -v e="$(figure "$run" "energy error [-]")" 'BEGIN { exit !(e < 1e-5) }' ||
     fail "$run: energy error $(figure "$run" "energy error [-]")"
 done
 

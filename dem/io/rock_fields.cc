@@ -40,7 +40,7 @@ void write_particles(const std::filesystem::path& file, const Rock& rock,
                      const std::vector<Vec3>& x_0)
 {
   const Particles& p = rock.particles;
-  const std::size_t n = p.n_owned;
+  const std::size_t n = p.n_owned();
   std::vector<Vec3> x;
   Field radius = scalar("radius", std::vector<double>(n)),
         S = scalar("S", std::vector<double>(n)), id = scalar("id", std::vector<double>(n));

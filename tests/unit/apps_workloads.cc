@@ -36,7 +36,7 @@ double stored(const dem::Rock& rock)
 {
   const dem::PairEnergy e =
       dem::pair_energy(rock.material, rock.cell, rock.particles, rock.bonds, rock.contacts);
-  return e.bonds + e.contacts;
+  return e.bonds.value() + e.contacts.value();
 }
 
 } // namespace

@@ -41,9 +41,9 @@ TEST_CASE("A bond to the image pulls with twice the displacement", "[unit][dem]"
   const double k_n = 400e6 * (pi * 1e-4) / (2.0 * R); // R_b = 10 mm
   CHECK(s.p.load[0].f.y() == Approx(-k_n * 2e-6).epsilon(1e-9));
   CHECK(s.p.load[0].f.x() == 0.0);
-  CHECK(s.mirror.force.y() == Approx(s.p.load[0].f.y()).epsilon(1e-12));
+  CHECK(s.mirror.force.value().y() == Approx(s.p.load[0].f.y()).epsilon(1e-12));
   // half of the pair's energy
-  CHECK(s.mirror.energy == Approx(0.5 * 0.5 * k_n * 4e-12).epsilon(1e-9));
+  CHECK(s.mirror.energy.value() == Approx(0.5 * 0.5 * k_n * 4e-12).epsilon(1e-9));
 }
 
 TEST_CASE("The half model sees the force, the loss and the breakage of the whole pair",
@@ -65,7 +65,7 @@ TEST_CASE("The half model sees the force, the loss and the breakage of the whole
     }
     whole.forces(dt);
     REQUIRE(half.p.load[0].f.y() == Approx(whole.p.load[0].f.y()).margin(1e-8));
-    REQUIRE(2.0 * half.mirror.energy == Approx(whole.stored()).margin(1e-13));
+    REQUIRE(2.0 * half.mirror.energy.value() == Approx(whole.stored()).margin(1e-13));
     REQUIRE(2.0 * half.losses.plastic.value() ==
             Approx(whole.losses.plastic.value()).margin(1e-13));
   }

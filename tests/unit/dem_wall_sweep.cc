@@ -180,7 +180,7 @@ TEST_CASE("Force, moment and power at the nodes balance those on the particle",
     worst_force = std::max(worst_force, force.norm() / on_particle.norm());
     worst_moment = std::max(worst_moment, moment.norm() / (on_particle.norm() * R));
     worst_power =
-        std::max(worst_power, std::abs(power - wall.contact_power) / on_particle.norm());
+        std::max(worst_power, std::abs(power - wall.contact_power.value()) / on_particle.norm());
   }
   CAPTURE(degrees, n_shared);
   CHECK(n_touched > 500);

@@ -1,0 +1,53 @@
+/// What only one of several ranks does: files, and words to the user.
+#pragma once
+
+#include "dem/error.h"
+
+#include <iostream>
+#include <mpi.h>
+#include <string>
+
+namespace mergel::apps {
+
+inline int rank_of_world()
+{
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+inline bool is_first_rank()
+{
+  return rank_of_world() == 0;
+}
+
+/// From here on std::cout is empty on all ranks but the first. What goes wrong is said on
+/// std::cerr by whom it befalls (run_guard.h).
+inline void silence_other_ranks()
+{
+  if (!is_first_rank()) std::cout.setstate(std::ios::badbit);
+}
+
+/// Run `body` on the first rank while the others wait. Bad input found there is thrown on
+/// all, so that the run ends with its exit code; any other exception goes on where it is.
+template <class Body>
+void on_first_rank(Body&& body)
+{
+  std::string message;
+  if (is_first_rank()) {
+    try {
+      body();
+    } catch (const InputError& error) {
+      message = error.what();
+      if (message.empty()) message = "bad input";
+    }
+  }
+  int length = static_cast<int>(message.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  if (length == 0) return;
+  message.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(message.data(), length, MPI_CHAR, 0, MPI_COMM_WORLD);
+  throw InputError(message);
+}
+
+} // namespace mergel::apps

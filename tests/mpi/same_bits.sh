@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# The same bits on 1, 2, 3, 4 and 8 ranks: bonded rocks that break and move across the borders
+# of the ranks, with forced rebuilds and migrations in the middle; and a small coupled pile.
+#
+# usage: tests/mpi/same_bits.sh MPI_SCENES MERGEL
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+scenes=$(readlink -f "$1") mergel=$(readlink -f "$2")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+# A container has no other user; ranks that share a processor must not spin.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
+
+fail() { echo "FAILED: $*"; exit 1; }
+# A rank that waits for one that has failed would wait for ever.
+ranks() { local n=$1; shift; timeout 300 mpirun --oversubscribe -n "$n" "$@"; }
+
+for scene in block turning periodic; do
+  ranks 1 "$scenes" "$scene" >one || fail "$scene on one rank"
+  [ "$(wc -l <one)" -eq 10 ] || fail "$scene: ten lines on one rank"
+  ranks 1 "$scenes" "$scene" rebuild >other || fail "$scene with rebuilds"
+  cmp one other || fail "$scene: a rebuild changes bits"
+  for n in 2 3 4 8; do
+    ranks $n "$scenes" "$scene" rebuild rebalance >other 2>errors || fail "$scene on $n ranks: $(cat errors)"
+    cmp one other || fail "$scene on $n ranks differs from one"
+  done
+  echo "$scene: $(tail -1 one | cut -d' ' -f3-6), the same bits on 1, 2, 3, 4, 8 ranks"
+done
+
+# Coupled: a small pile until bonds break.
+tiny=(--set "Specimen/diameter=6 mm" --set "Specimen/height=6 mm" --set "Specimen/inner upscaling=5"
+  --set "Specimen/outer radius=3 mm" --set "Far field/chamber diameter=12 mm"
+  --set "Far field/chamber height=12 mm" --set "Output/frames=1" --set "Motion/balance=1e-2"
+  --set "Pile/cone angle=120 degree" --set "Pile/final depth=0.15 mm")
+for n in 1 2 3 4; do
+  ranks $n "$mergel" pile "$root/apps/cases/pile_small.prm" "${tiny[@]}" --output "pile$n" >log 2>&1 ||
+    fail "the pile on $n ranks: $(tail -3 log)"
+  cmp pile1/history.csv "pile$n/history.csv" || fail "the pile on $n ranks differs from one"
+  cmp pile1/fields/particles_0001.vtp "pile$n/fields/particles_0001.vtp" ||
+    fail "the grains of the pile on $n ranks differ from one"
+done
+broken=$(awk -F': ' '/"bonds broken/ { print $2 + 0 }' pile1/summary.json)
+[ "$broken" -gt 20 ] || fail "the pile broke only $broken bonds"
+echo "pile: $broken broken, the same history and grains on 1, 2, 3, 4 ranks"
+
+# A rank that fails takes the others down, and says which it is.
+code=0
+ranks 3 "$mergel" pile "$root/apps/cases/pile_small.prm" "${tiny[@]}" --output fails \
+  --set "Pile/velocity=2000 m/s" >log 2>&1 || code=$?
+[ "$code" -ne 0 ] && [ "$code" -ne 124 ] || fail "a failing rank: exit code $code"
+grep -q 'rank [0-2]: ' log || fail "a failing rank is not named: $(tail -3 log)"
+# Bad input is said once, with the exit code of bad input.
+code=0
+ranks 2 "$mergel" pile "$root/apps/cases/pile_small.prm" --set "Pile/diameter=-1 mm" --output none >log 2>&1 || code=$?
+[ "$code" -eq 1 ] || fail "bad input on two ranks: exit code $code"
+[ "$(grep -c 'Pile/diameter = -1 mm' log)" -eq 1 ] || fail "bad input on two ranks: $(cat log)"
+code=0
+ranks 2 "$mergel" pile "$root/apps/cases/pile_small.prm" "${tiny[@]}" --output pile1 >log 2>&1 || code=$?
+[ "$code" -eq 1 ] || fail "an earlier run on two ranks: exit code $code"
+echo "same bits: all holds"

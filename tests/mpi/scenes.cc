@@ -1,0 +1,162 @@
+/// Rocks that break while they move, run for the bits: what this prints must not depend on
+/// the number of ranks.
+///
+/// usage: mpi_scenes SCENE [rebuild] [rebalance]
+///   block      bonded, free faces, squeezed until bonds break
+///   turning    the same block, turning and flying across the borders of the ranks
+///   periodic   a periodic box of bonded and unbonded grains, stirred until bonds break
+///   rebuild    lists are built at every 7th step besides
+///   rebalance  grains change ranks at every 50th step, by weights that make no sense;
+///              doubled histories are compared
+#include "apps/workloads.h"
+#include "dem/balance.h"
+#include "dem/distribute.h"
+#include "dem/random.h"
+
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+using namespace mergel;
+using namespace mergel::dem;
+
+namespace {
+
+constexpr int n_steps = 400;
+
+/// Strengths that the motion of a scene exceeds in places.
+void weaken(Rock& rock, double strength)
+{
+  auto& bond = std::get<DamageBond>(rock.material.bond);
+  bond.sigma_t = strength;
+  bond.sigma_c = 3.0 * strength;
+  bond.C = 1.2 * strength;
+  bond.u_c = 1e-7;
+  bond.theta_c = 1e-3;
+}
+
+/// Each grain gets a velocity and spin of its own.
+void stir(Rock& rock, double speed)
+{
+  for (Index i = 0; i < rock.particles.size(); ++i) {
+    Body& b = rock.particles.body[i];
+    for (int a = 0; a < 3; ++a) {
+      const auto draw = [&](std::uint64_t k) {
+        return 2.0 * uniform(7, i, k + static_cast<std::uint64_t>(a)) - 1.0;
+      };
+      b.v[a] += speed * draw(0);
+      b.omega[a] += 0.5 * speed / b.R * draw(3);
+    }
+  }
+}
+
+void turn(Rock& rock, double rate)
+{
+  Vec3 centre = Vec3::Zero();
+  for (const Body& b : rock.particles.body) centre += b.x;
+  centre /= static_cast<double>(rock.particles.size());
+  const Vec3 spin = rate * Vec3(0.3, 0.5, 0.8).normalized();
+  for (Body& b : rock.particles.body) {
+    b.v += spin.cross(b.x - centre);
+    b.omega += spin;
+  }
+}
+
+apps::WorkingRock make(const std::string& name)
+{
+  apps::WorkloadSpec spec;
+  spec.n_particles = 3000;
+  if (name == "periodic") {
+    spec.workload = apps::Workload::frictional_packing;
+    apps::WorkingRock w = apps::make_workload(spec);
+    // Two thirds of what touches is bonded.
+    std::vector<Pair> bonded;
+    for (std::size_t c = 0; c < w.rock.contacts.pairs.size(); ++c)
+      if (c % 3 != 0) bonded.push_back(w.rock.contacts.pairs[c]);
+    w.rock.bonds = make_bonds(w.rock.particles, w.rock.cell, bonded);
+    w.rock.contacts = {};
+    w.rock.list.invalidate();
+    stir(w.rock, 10.0);
+    return w;
+  }
+  if (name != "block" && name != "turning") throw std::invalid_argument("no scene " + name);
+  apps::WorkingRock w = apps::make_workload(spec);
+  stir(w.rock, 4.0);
+  if (name == "turning") turn(w.rock, 2e4);
+  return w;
+}
+
+std::uint64_t checksum_of_histories(const Rock& rock)
+{
+  std::uint64_t sum = 1469598103934665603u;
+  const auto add = [&sum](double a) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &a, sizeof a);
+    sum = (sum ^ bits) * 1099511628211u;
+  };
+  for (std::size_t b = 0; b < rock.bonds.size(); ++b) {
+    const BondBlock& k = rock.bonds.blocks[b / n_lanes];
+    const auto l = static_cast<int>(b % n_lanes);
+    for (const Triple<Lanes>* t : {&k.V, &k.M, &k.f_s})
+      for (const double a : {t->x[l], t->y[l], t->z[l]}) add(a);
+    for (const double a : {k.gap_0[l], k.u_p[l], k.T[l], k.intact[l]}) add(a);
+  }
+  for (const ContactShear& s : rock.contacts.shear)
+    if (s.f_s != Vec3::Zero()) // candidates differ with the lists, histories do not
+      for (int a = 0; a < 3; ++a) add(s.f_s[a]);
+  return sum;
+}
+
+void report(apps::WorkingRock& w, int step)
+{
+  const EnergyBook e = energy_book(w.rock, w.dt);
+  const double unbalanced = unbalanced_ratio(w.rock);
+  const Rock all = whole(w.rock);
+  if (w.rock.domain.rank() != 0) return;
+  std::printf("%4d %016" PRIx64 " %016" PRIx64
+              " broken %zu yielded %zu dt %a unbalanced %a "
+              "kinetic %a bonds %a contacts %a plastic %a residue %a slip %a damping %a\n",
+              step, apps::checksum(all.particles), checksum_of_histories(all),
+              all.losses.broken, all.losses.yielded, w.dt, unbalanced, e.kinetic, e.bonds,
+              e.contacts, e.plastic, e.residue, e.slip, e.damping);
+}
+
+void run(const std::string& name, bool rebuilds, bool rebalances)
+{
+  apps::WorkingRock w = make(name);
+  weaken(w.rock, 1e8);
+  share_out(w.rock, MPI_COMM_WORLD);
+  add_forces(w.rock, 0.0);
+  for (int step = 1; step <= n_steps; ++step) {
+    if (rebuilds && step % 7 == 0) w.rock.list.invalidate();
+    if (rebalances && step % 50 == 0)
+      rebalance(w.rock, 1.0 + (step / 50 + w.rock.domain.rank()) % 3, true);
+    w.step();
+    if (step % 40 == 0) report(w, step);
+  }
+  std::fflush(stdout);
+  const std::size_t broken = w.rock.domain.sum(w.rock.losses.broken);
+  if (broken < 20)
+    throw std::runtime_error("only " + std::to_string(broken) + " bonds broke");
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  MPI_Init(&argc, &argv);
+  try {
+    bool rebuilds = false, rebalances = false;
+    for (int k = 2; k < argc; ++k) {
+      rebuilds = rebuilds || std::string(argv[k]) == "rebuild";
+      rebalances = rebalances || std::string(argv[k]) == "rebalance";
+    }
+    run(argc > 1 ? argv[1] : "", rebuilds, rebalances);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "mpi_scenes: %s\n", e.what());
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  }
+  MPI_Finalize();
+}
