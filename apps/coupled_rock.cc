@@ -193,6 +193,7 @@ void equilibrate(CoupledRock& coupled, double ratio, std::size_t most_steps)
       b.v = moved / dt;
       b.omega.setZero();
     });
+    coupled.rock.list.invalidate();
     for (std::size_t k = 0; k < u.size(); ++k) wall.v[k] = u[k] / dt;
     dem::add_forces(coupled.rock, dt);
     p.for_owned([&](dem::Index i) { p.body[i].v.setZero(); });

@@ -9,22 +9,20 @@ namespace {
 
 constexpr std::size_t prefetch_ahead = 16;
 
-Lanes row(const double* four)
+Row row(const double* four)
 {
-  Lanes r;
+  Row r;
   std::memcpy(&r, four, sizeof r);
   return r;
 }
 
-/// Four particles, transposed from their records.
+/// Particles of one batch, transposed from their records.
 [[gnu::always_inline]] inline End<Lanes> gather(const Body* body, const Index* at)
 {
   const auto rows = [&](auto member, Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
-    a = row((body[at[0]].*member).data());
-    b = row((body[at[1]].*member).data());
-    c = row((body[at[2]].*member).data());
-    d = row((body[at[3]].*member).data());
-    transpose(a, b, c, d);
+    Row r[n_lanes];
+    for (int l = 0; l < n_lanes; ++l) r[l] = row((body[at[l]].*member).data());
+    columns(r, a, b, c, d);
   };
   End<Lanes> e;
   Lanes m; // the mass shares the row of the spin
@@ -34,9 +32,9 @@ Lanes row(const double* four)
   return e;
 }
 
-/// Force on i and torques of four pairs, one row for each force and torque.
+/// Force on i and torques of a batch of pairs, one row for each force and torque.
 struct Rows {
-  Lanes f[n_lanes], t_i[n_lanes], t_j[n_lanes];
+  Row f[n_lanes], t_i[n_lanes], t_j[n_lanes];
 };
 
 /// @param F force on i; @param M moment on i. The same force acts on both at the contact
@@ -47,12 +45,8 @@ struct Rows {
   const Triple<Lanes> nF = cross(k.n, F);
   const Triple<Lanes> t_i = nF * k.a_i + M, t_j = nF * k.a_j - M;
   Rows r;
-  const auto set = [](Lanes(&out)[n_lanes], const Triple<Lanes>& a) {
-    out[0] = a.x;
-    out[1] = a.y;
-    out[2] = a.z;
-    out[3] = Lanes{};
-    transpose(out[0], out[1], out[2], out[3]);
+  const auto set = [](Row(&out)[n_lanes], const Triple<Lanes>& a) {
+    rows(a.x, a.y, a.z, Lanes{}, out);
   };
   set(r.f, F);
   set(r.t_i, t_i);
@@ -60,9 +54,9 @@ struct Rows {
   return r;
 }
 
-void add_row(double* four, Lanes a)
+void add_row(double* four, Row a)
 {
-  Lanes sum;
+  Row sum;
   std::memcpy(&sum, four, sizeof sum);
   sum += a;
   std::memcpy(four, &sum, sizeof sum);
@@ -81,18 +75,18 @@ void add_row(double* four, Lanes a)
   }
 }
 
-/// The four pairs of one block; what is missing at the end repeats the last pair and is not
+/// The pairs of one batch; what is missing at the end repeats the last pair and is not
 /// scattered.
-struct Four {
+struct Batch {
   Index i[n_lanes], j[n_lanes];
   int count;
 };
 
-[[gnu::always_inline]] inline Four four_pairs(const std::vector<Pair>& pairs,
-                                              const std::size_t* which, std::size_t first,
-                                              std::size_t end)
+[[gnu::always_inline]] inline Batch batch_of(const std::vector<Pair>& pairs,
+                                             const std::size_t* which, std::size_t first,
+                                             std::size_t end)
 {
-  Four q;
+  Batch q;
   q.count = static_cast<int>(std::min<std::size_t>(n_lanes, end - first));
   for (int l = 0; l < n_lanes; ++l) {
     const std::size_t k = first + static_cast<std::size_t>(std::min(l, q.count - 1));
@@ -104,12 +98,14 @@ struct Four {
 }
 
 void shift_images(const std::vector<Pair>& pairs, const std::size_t* which,
-                  std::size_t first, const Four& q, const PeriodicCell& cell,
+                  std::size_t first, const Batch& q, const PeriodicCell& cell,
                   Triple<Lanes>& x)
 {
   for (int l = 0; l < q.count; ++l) {
     const std::size_t k = first + static_cast<std::size_t>(l);
-    const Vec3 offset = cell.offset(pairs[which ? which[k] : k].shift);
+    const Shift& shift = pairs[which ? which[k] : k].shift;
+    if ((shift[0] | shift[1] | shift[2]) == 0) continue; // x + 0 is x
+    const Vec3 offset = cell.offset(shift);
     x.x[l] += offset.x();
     x.y[l] += offset.y();
     x.z[l] += offset.z();
@@ -127,7 +123,7 @@ void prefetch(const Particles& p, Index j)
 /// Return the lanes that left the yield surface, one at a time.
 template <IsBondLaw Law>
 void return_lanes(const Law& b, const BondShape<Lanes>& s, const Lanes& S,
-                  const Mask& yields, const Four& q, const EffectiveLoads<Lanes>& old,
+                  const Mask& yields, const Batch& q, const EffectiveLoads<Lanes>& old,
                   EffectiveLoads<Lanes>& load, BondBlock& h, const Pair* pairs,
                   Particles& p, PairLosses& losses)
 {
@@ -160,7 +156,7 @@ void return_lanes(const Law& b, const BondShape<Lanes>& s, const Lanes& S,
   }
 }
 
-void add_slip(const Lanes& loss, const Four& q, const Particles& p, PairLosses& losses)
+void add_slip(const Lanes& loss, const Batch& q, const Particles& p, PairLosses& losses)
 {
   if (!any(loss != Lanes{})) return;
   for (int l = 0; l < q.count; ++l)
@@ -168,16 +164,19 @@ void add_slip(const Lanes& loss, const Four& q, const Particles& p, PairLosses& 
 }
 
 template <IsBondLaw Law>
-void add_forces_of(const Law& bond, const LinearMaterial& beside, const PeriodicCell& cell,
-                   double dt, Particles& p, Bonds& bonds, PairLosses& losses)
+void add_forces_of(const Law& law, const LinearMaterial& contact_law,
+                   const PeriodicCell& cell, double dt, Particles& p, Bonds& bonds,
+                   PairLosses& losses)
 {
+  const Law bond = law; // copies: no store below can change them
+  const LinearMaterial beside = contact_law;
   const bool is_periodic = cell.is_periodic();
   const std::size_t n = bonds.size();
   for (std::size_t first = 0; first < n; first += n_lanes) {
     for (std::size_t a = first + prefetch_ahead; a < first + prefetch_ahead + n_lanes; ++a)
       if (a < n) prefetch(p, bonds.pairs[a].j);
 
-    const Four q = four_pairs(bonds.pairs, nullptr, first, n);
+    const Batch q = batch_of(bonds.pairs, nullptr, first, n);
     const End<Lanes> i = gather(p.body.data(), q.i);
     End<Lanes> j = gather(p.body.data(), q.j);
     if (is_periodic) shift_images(bonds.pairs, nullptr, first, q, cell, j.x);
@@ -244,7 +243,8 @@ void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell
     const Pair& pair = contacts.pairs[c];
     const Body &i = p.body[pair.i], &j = p.body[pair.j];
     Vec3 r = j.x - i.x;
-    if (is_periodic) r += cell.offset(pair.shift);
+    if (is_periodic && (pair.shift[0] | pair.shift[1] | pair.shift[2]) != 0)
+      r += cell.offset(pair.shift);
     const double reach = i.R + j.R + material.g_a * (0.5 * (i.S + j.S));
     if (!(r.squaredNorm() >=
           reach * reach * (1.0 + 1e-12))) // a NaN goes through, and is met
@@ -253,26 +253,32 @@ void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell
       touching.push_back(c);
   }
 
+  const std::size_t* which = touching.data();
   for (std::size_t first = 0; first < touching.size(); first += n_lanes) {
-    const std::size_t* which = touching.data();
-    const Four q = four_pairs(contacts.pairs, which, first, touching.size());
+    for (std::size_t a = first + prefetch_ahead; a < first + prefetch_ahead + n_lanes; ++a)
+      if (a < touching.size()) {
+        prefetch(p, contacts.pairs[which[a]].j);
+        __builtin_prefetch(&contacts.shear[which[a]], 1);
+      }
+    const Batch q = batch_of(contacts.pairs, which, first, touching.size());
     const End<Lanes> i = gather(p.body.data(), q.i);
     End<Lanes> j = gather(p.body.data(), q.j);
     if (is_periodic) shift_images(contacts.pairs, which, first, q, cell, j.x);
     const PairMotion<Lanes> k = pair_motion(i, j, dt);
 
-    Lanes f_s[n_lanes];
+    Row shear[n_lanes];
     for (int l = 0; l < n_lanes; ++l)
-      f_s[l] =
+      shear[l] =
           l < q.count
               ? row(contacts.shear[which[first + static_cast<std::size_t>(l)]].f_s.data())
-              : Lanes{};
-    transpose(f_s[0], f_s[1], f_s[2], f_s[3]);
+              : Row{};
+    Triple<Lanes> f_s;
+    Lanes pad;
+    columns(shear, f_s.x, f_s.y, f_s.z, pad);
 
     const Lanes r = min(i.R, j.R), S = 0.5 * (i.S + j.S);
-    const auto contact =
-        linear_contact(material, linear_stiffness(material, r, k.inv_L), k.gap,
-                       material.g_a * S, k.du_s, turned({f_s[0], f_s[1], f_s[2]}, k));
+    const auto contact = linear_contact(material, linear_stiffness(material, r, k.inv_L),
+                                        k.gap, material.g_a * S, k.du_s, turned(f_s, k));
     add_slip(contact.slip_loss, q, p, losses);
 
     const Triple<Lanes> F = contact.f_s - k.n * contact.f_n;

@@ -1,67 +1,126 @@
 #include "dem/integrate.h"
 
+#include "dem/lanes.h"
+
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace mergel::dem {
 
 namespace {
 
-/// One component: returns the new velocity, adds what damping took. The sign of v is as
-/// good as random: no branch.
-double kicked(double v, double f, double alpha, double dt_over_m, double dt, double& damped)
+Row row(const Vec3& three_of_four) // a record's row: three numbers and a fourth beside them
 {
-  const double drag = -std::copysign(v != 0.0 ? alpha * std::abs(f) : 0.0, v);
-  const double v_new = v + (f + drag) * dt_over_m;
-  damped -= drag * 0.5 * (v + v_new) * dt;
+  Row r;
+  std::memcpy(&r, three_of_four.data(), sizeof r);
+  return r;
+}
+
+void set_row(Vec3& three_of_four, Row r)
+{
+  std::memcpy(three_of_four.data(), &r, sizeof r);
+}
+
+/// Component by component: returns the new velocity, gives what damping took. Where the force
+/// is zero, as beside the three components, the velocity stays. The sign of v is as good as
+/// random: no branch.
+Row kicked(Row v, Row f, double alpha, double dt_over_m, double dt, Row& damped)
+{
+  using Bits = decltype(v < v);
+  const Bits sign = reinterpret_cast<Bits>(-Row{}); // set in minus zero alone
+  const Row brake = alpha * reinterpret_cast<Row>(reinterpret_cast<Bits>(f) & ~sign);
+  const Bits against = ~reinterpret_cast<Bits>(v) & sign;
+  const Row drag =
+      reinterpret_cast<Row>((reinterpret_cast<Bits>(brake) | against) & (v != Row{}));
+  const Row v_new = v + (f + drag) * dt_over_m;
+  damped = drag * 0.5 * (v + v_new) * dt;
   return v_new;
+}
+
+/// What the kick of all grains has in common.
+struct Kick {
+  const Motion& motion;
+  Row gravity;
+  double dt;
+  bool has_weight;
+
+  Kick(const Motion& m, double dt_)
+      : motion(m), gravity{m.gravity.x(), m.gravity.y(), m.gravity.z(), 0.0}, dt(dt_),
+        has_weight(m.gravity != Vec3::Zero())
+  {
+  }
+
+  void operator()(Particles& p, Index i, KickWork& work) const
+  {
+    Body& b = p.body[i];
+    const Load& load = p.load[i];
+    const double alpha = motion.damping;
+    const Vec3 v_old = b.v;
+    Row took{};
+    const Row weight = b.m * gravity;
+    set_row(b.v, kicked(row(b.v), row(load.f) + weight, alpha, dt / b.m, dt, took));
+    double damped = 0.0 - took[0] - took[1] - took[2];
+    if (p.n_bonds[i] > 0 || motion.free_rotation) {
+      set_row(b.omega,
+              kicked(row(b.omega), row(load.t), alpha, dt / b.inertia(), dt, took));
+      damped = damped - took[0] - took[1] - took[2];
+    } else if (b.omega != Vec3::Zero()) {
+      work.lock.add(0.5 * b.inertia() * b.omega.squaredNorm());
+      b.omega.setZero();
+    }
+    work.damping.add(damped);
+    if (has_weight) work.gravity.add(0.5 * dt * (b.m * motion.gravity).dot(v_old + b.v));
+  }
+};
+
+[[noreturn]] void refuse_motion(const Particles& p, Index i, double dt)
+{
+  const Body& b = p.body[i];
+  const std::string remedy = " in one step (at most 0.05): lower `Motion/time step safety`";
+  const double moved = dt * b.v.norm() / b.R, turned = dt * b.omega.norm();
+  const std::string who = "particle " + std::to_string(p.id[i]);
+  if (!(moved <= 0.05))
+    throw NumericalError(who + " moves " + std::to_string(moved) + " radii" + remedy);
+  throw NumericalError(who + " turns by " + std::to_string(turned) + " rad" + remedy);
+}
+
+/// Returns the square of the motion over S [m^2].
+double drift_one(Particles& p, Index i, double dt)
+{
+  Body& b = p.body[i];
+  const Vec3 dx = dt * b.v;
+  const double moved2 = dx.squaredNorm();
+  if (!(moved2 <= 0.05 * 0.05 * b.R * b.R) ||
+      !(b.omega.squaredNorm() * dt * dt <= 0.05 * 0.05))
+    refuse_motion(p, i, dt);
+  b.x += dx;
+  return moved2 / (b.S * b.S);
 }
 
 } // namespace
 
 void kick(Particles& p, const Motion& motion, double dt, KickWork& work)
 {
-  const double alpha = motion.damping;
-  p.for_owned([&](Index i) {
-    Body& b = p.body[i];
-    const Load& load = p.load[i];
-    const Vec3 weight = b.m * motion.gravity;
-    const double dt_over_m = dt / b.m;
-    double damped = 0.0;
-    const Vec3 v_old = b.v;
-    for (int a = 0; a < 3; ++a)
-      b.v[a] = kicked(b.v[a], load.f[a] + weight[a], alpha, dt_over_m, dt, damped);
-    if (p.n_bonds[i] > 0 || motion.free_rotation) {
-      const double dt_over_I = dt / b.inertia();
-      for (int a = 0; a < 3; ++a)
-        b.omega[a] = kicked(b.omega[a], load.t[a], alpha, dt_over_I, dt, damped);
-    } else if (b.omega != Vec3::Zero()) {
-      work.lock.add(0.5 * b.inertia() * b.omega.squaredNorm());
-      b.omega.setZero();
-    }
-    work.damping.add(damped);
-    work.gravity.add(0.5 * dt * weight.dot(v_old + b.v));
-  });
+  const Kick kick_one(motion, dt);
+  p.for_owned([&](Index i) { kick_one(p, i, work); });
 }
 
 void drift(Particles& p, double dt)
 {
+  p.for_owned([&](Index i) { drift_one(p, i, dt); });
+}
+
+double kick_and_drift(Particles& p, const Motion& motion, double dt_kick, double dt,
+                      KickWork& work)
+{
+  const Kick kick_one(motion, dt_kick);
+  double most2 = 0.0;
   p.for_owned([&](Index i) {
-    Body& b = p.body[i];
-    const Vec3 dx = dt * b.v;
-    const double limit = b.R / 20.0;
-    if (!(dx.squaredNorm() <= limit * limit))
-      throw NumericalError(
-          "particle " + std::to_string(p.id[i]) + " moves " +
-          std::to_string(dx.norm() / b.R) +
-          " radii in one step (at most 0.05): lower `Motion/time step safety`");
-    if (!(b.omega.squaredNorm() * dt * dt <= 0.05 * 0.05))
-      throw NumericalError(
-          "particle " + std::to_string(p.id[i]) + " turns by " +
-          std::to_string(b.omega.norm() * dt) +
-          " rad in one step (at most 0.05): lower `Motion/time step safety`");
-    b.x += dx;
+    kick_one(p, i, work);
+    most2 = std::max(most2, drift_one(p, i, dt));
   });
+  return std::sqrt(most2);
 }
 
 void clear_loads(Particles& p)

@@ -31,6 +31,10 @@ void kick(Particles& p, const Motion& motion, double dt, KickWork& work);
 ///   in the step, or is not a number
 void drift(Particles& p, double dt);
 
+/// Both in one pass, the kick over `dt_kick` [s]. Returns the largest motion over S [m].
+double kick_and_drift(Particles& p, const Motion& motion, double dt_kick, double dt,
+                      KickWork& work);
+
 /// Set the loads of owned particles and ghosts to zero.
 void clear_loads(Particles& p);
 

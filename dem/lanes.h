@@ -1,7 +1,8 @@
-/// Four pairs at a time: the arithmetic type of the force kernel.
+/// Several pairs at a time: the arithmetic type of the force kernel.
 ///
 /// A kernel is a template over `Real`: with Real = double it is the scalar law that tests
-/// and walls use, with Real = Lanes the same source runs on four pairs. IEEE arithmetic of
+/// and walls use, with Real = Lanes the same source runs on as many
+/// pairs as the processor has lanes. IEEE arithmetic of
 /// a lane does not depend on its neighbours, so a pair gets the same bits in any lane, and
 /// contraction is off in the build.
 #pragma once
@@ -9,6 +10,7 @@
 #include "dem/notation.h"
 
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 #ifdef __AVX__
 #include <immintrin.h>
@@ -16,15 +18,26 @@
 
 namespace mergel::dem {
 
+/// Eight where the processor has them. Four then cost as much: the time goes into waiting
+/// for results, and eight wait together.
+#ifdef __AVX512DQ__
+inline constexpr int n_lanes = 8;
+#else
 inline constexpr int n_lanes = 4;
+#endif
 
 using Lanes [[gnu::vector_size(n_lanes * sizeof(double))]] = double;
 /// Result of a lane-wise comparison: all bits set where true.
 using Mask = decltype(Lanes{} < Lanes{});
 
+/// Four numbers of one record.
+using Row [[gnu::vector_size(4 * sizeof(double))]] = double;
+
 inline Lanes sqrt(Lanes a)
 {
-#ifdef __AVX__
+#if defined(__AVX512DQ__)
+  return reinterpret_cast<Lanes>(_mm512_maskz_sqrt_pd(0xFF, reinterpret_cast<__m512d>(a)));
+#elif defined(__AVX__)
   return reinterpret_cast<Lanes>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(a)));
 #else
   for (int k = 0; k < n_lanes; ++k) a[k] = std::sqrt(a[k]);
@@ -38,10 +51,14 @@ inline double sqrt(double a)
 
 inline bool any(Mask m)
 {
-#ifdef __AVX__
+#if defined(__AVX512DQ__)
+  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(m)) != 0;
+#elif defined(__AVX__)
   return _mm256_movemask_pd(reinterpret_cast<__m256d>(m)) != 0;
 #else
-  return (m[0] | m[1] | m[2] | m[3]) != 0;
+  long long all = 0;
+  for (int k = 0; k < n_lanes; ++k) all |= m[k];
+  return all != 0;
 #endif
 }
 inline bool any(bool m)
@@ -67,18 +84,59 @@ inline double min(double a, double b)
   return a < b ? a : b;
 }
 
-/// Four rows of four numbers to four columns.
+/// In each group of four lanes: four rows of four numbers to four columns, and back.
 inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d)
 {
   using Pick = Mask;
+#ifdef __AVX512DQ__
+  const Lanes ab_low = __builtin_shuffle(a, b, Pick{0, 8, 2, 10, 4, 12, 6, 14});
+  const Lanes ab_high = __builtin_shuffle(a, b, Pick{1, 9, 3, 11, 5, 13, 7, 15});
+  const Lanes cd_low = __builtin_shuffle(c, d, Pick{0, 8, 2, 10, 4, 12, 6, 14});
+  const Lanes cd_high = __builtin_shuffle(c, d, Pick{1, 9, 3, 11, 5, 13, 7, 15});
+  const Pick first{0, 1, 8, 9, 4, 5, 12, 13}, second{2, 3, 10, 11, 6, 7, 14, 15};
+#else
   const Lanes ab_low = __builtin_shuffle(a, b, Pick{0, 4, 2, 6});
   const Lanes ab_high = __builtin_shuffle(a, b, Pick{1, 5, 3, 7});
   const Lanes cd_low = __builtin_shuffle(c, d, Pick{0, 4, 2, 6});
   const Lanes cd_high = __builtin_shuffle(c, d, Pick{1, 5, 3, 7});
-  a = __builtin_shuffle(ab_low, cd_low, Pick{0, 1, 4, 5});
-  b = __builtin_shuffle(ab_high, cd_high, Pick{0, 1, 4, 5});
-  c = __builtin_shuffle(ab_low, cd_low, Pick{2, 3, 6, 7});
-  d = __builtin_shuffle(ab_high, cd_high, Pick{2, 3, 6, 7});
+  const Pick first{0, 1, 4, 5}, second{2, 3, 6, 7};
+#endif
+  a = __builtin_shuffle(ab_low, cd_low, first);
+  b = __builtin_shuffle(ab_high, cd_high, first);
+  c = __builtin_shuffle(ab_low, cd_low, second);
+  d = __builtin_shuffle(ab_high, cd_high, second);
+}
+
+/// One row a lane to four columns.
+inline void columns(const Row (&r)[n_lanes], Lanes& a, Lanes& b, Lanes& c, Lanes& d)
+{
+#ifdef __AVX512DQ__
+  const auto group = [&r](int k) {
+    return __builtin_shufflevector(r[k], r[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+  };
+#else
+  const auto group = [&r](int k) { return r[k]; };
+#endif
+  a = group(0);
+  b = group(1);
+  c = group(2);
+  d = group(3);
+  transpose(a, b, c, d);
+}
+
+/// Four columns to one row a lane.
+inline void rows(Lanes a, Lanes b, Lanes c, Lanes d, Row (&r)[n_lanes])
+{
+  transpose(a, b, c, d);
+  const Lanes group[4] = {a, b, c, d};
+  for (int k = 0; k < 4; ++k) {
+#ifdef __AVX512DQ__
+    r[k] = __builtin_shufflevector(group[k], group[k], 0, 1, 2, 3);
+    r[k + 4] = __builtin_shufflevector(group[k], group[k], 4, 5, 6, 7);
+#else
+    r[k] = group[k];
+#endif
+  }
 }
 
 /// A vector of the kernel: three numbers of type double or Lanes.
@@ -129,7 +187,7 @@ inline Vec3 vec3(const Triple<double>& a)
   return {a.x, a.y, a.z};
 }
 
-/// One lane of four, and back.
+/// One lane, and back.
 inline Triple<double> lane(const Triple<Lanes>& a, int k)
 {
   return {a.x[k], a.y[k], a.z[k]};

@@ -231,15 +231,17 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
   return sorted(found, p.size());
 }
 
-bool VerletList::is_stale(const Particles& p) const
+bool VerletList::is_stale(const Particles& p)
 {
   if (x_built_.size() != p.size()) return true;
-  for (const IndexRange& r : p.owned())
-    for (Index i = r.begin; i < r.end; ++i) {
-      const double allowed = 0.5 * skin_ * p.body[i].S;
-      if ((p.body[i].x - x_built_[i]).squaredNorm() > allowed * allowed) return true;
-    }
-  return false;
+  if (travel_ <= 0.5 * skin_) return false;
+  double most2 = 0.0; // of the motion over S
+  p.for_owned([&](Index i) {
+    const double S = p.body[i].S;
+    most2 = std::max(most2, (p.body[i].x - x_built_[i]).squaredNorm() / (S * S));
+  });
+  travel_ = std::sqrt(most2);
+  return travel_ > 0.5 * skin_;
 }
 
 void VerletList::rebuild(const Particles& p, const PeriodicCell& cell, const Bonds& bonds,
@@ -263,6 +265,7 @@ void VerletList::rebuild(const Particles& p, const PeriodicCell& cell, const Bon
     x_built_[i] = p.body[i].x;
     least_skin_ = std::min(least_skin_, skin_ * p.body[i].S);
   }
+  travel_ = 0.0;
   ++n_builds_;
 }
 

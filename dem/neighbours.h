@@ -24,8 +24,13 @@ public:
   /// @param g_a activation gap, @param skin margin; both at S = 1 [m], both scale with S
   VerletList(double g_a, double skin) : g_a_(g_a), skin_(skin) {}
 
-  /// True when a particle moved by half its skin since the last build, or there was none.
-  bool is_stale(const Particles& p) const;
+  /// Tell that since the last call no owned particle moved by more than `most` S [m]. Whoever
+  /// moves particles tells it, or invalidates the list.
+  void add_motion(double most) { travel_ += most; }
+
+  /// True when an owned particle moved by half its skin since the last build, or there was
+  /// none. Looks at the particles only once the sum of the motions told allows it.
+  bool is_stale(const Particles& p);
 
   /// Replace the pairs of `contacts`, those ever bonded left out, and keep the shear
   /// history.
@@ -42,6 +47,7 @@ private:
   double g_a_, skin_;
   std::vector<Vec3> x_built_;
   double least_skin_ = 0.0; ///< [m]
+  double travel_ = 0.0;     ///< bound of the motion over S since the last build [m]
   std::size_t n_builds_ = 0;
 };
 

@@ -54,7 +54,7 @@ void sum_wall_forces(Rock& rock)
 }
 
 /// Half of the skin belongs to the particles, half to the walls.
-bool lists_are_stale(const Rock& rock)
+bool lists_are_stale(Rock& rock)
 {
   if (rock.list.is_stale(rock.particles)) return true;
   const double allowed = rock.list.wall_allowance();

@@ -118,8 +118,7 @@ void advance(Rock& rock, double dt_before, double dt, MoveWalls&& move_walls)
 {
   const double start = wall_clock();
   const double dt_kick = 0.5 * (dt_before + dt);
-  kick(rock.particles, rock.motion, dt_kick, rock.work);
-  drift(rock.particles, dt);
+  rock.list.add_motion(kick_and_drift(rock.particles, rock.motion, dt_kick, dt, rock.work));
   rock.times.motion += wall_clock() - start;
   // Work of the forces at t^n on the mean motion of the walls around t^n.
   const WallPower before = wall_power(rock);

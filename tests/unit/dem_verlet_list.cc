@@ -48,7 +48,12 @@ Outcome run(bool every_step)
   const double dt = 5e-6;
   for (int step = 0; step < 1500; ++step) {
     if (every_step || list.is_stale(s.p)) list.rebuild(s.p, s.cell, s.bonds, s.contacts);
+    const auto before = s.p.body;
     s.step(dt);
+    double most = 0.0; // over S = 1
+    for (std::size_t i = 0; i < before.size(); ++i)
+      most = std::max(most, (s.p.body[i].x - before[i].x).norm());
+    list.add_motion(most);
   }
   return {s.p.body, s.losses.slip.value(), list.n_builds(), s.losses.broken};
 }
@@ -86,6 +91,7 @@ TEST_CASE("A rebuild keeps the shear of its pairs and leaves bonded pairs out",
   s.contacts.shear[1].f_s = {0.0, 3.0, 4.0};
 
   s.p.body[0].x.x() -= 0.01; // leaves the list
+  list.add_motion(0.01);
   CHECK(list.is_stale(s.p));
   list.rebuild(s.p, s.cell, s.bonds, s.contacts);
   REQUIRE(s.contacts.pairs == std::vector<Pair>{{2, 3}});
@@ -104,8 +110,10 @@ TEST_CASE("The list is stale when a particle moved by half its skin", "[unit][de
   VerletList list(0.0, 1e-3);
   list.rebuild(p, {}, {}, contacts);
   p.body[0].x.y() = 0.99e-3;
+  list.add_motion(0.99e-3); // a bound: more than S allows, so the list looks
   CHECK_FALSE(list.is_stale(p));
   p.body[0].x.y() = 1.01e-3;
+  list.add_motion(0.01e-3);
   CHECK(list.is_stale(p));
   p.body[0].x.y() = 0.0;
   CHECK(list.wall_allowance() == Approx(0.5e-3)); // the least skin counts for walls
