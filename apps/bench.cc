@@ -1,7 +1,9 @@
 /// mergel bench: what a step costs on this machine, part by part; tests/bench says of what.
 #include "apps/command_line.h"
 #include "apps/jobs.h"
+#include "apps/ranks.h"
 #include "apps/workloads.h"
+#include "dem/distribute.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"
 
@@ -79,6 +81,7 @@ struct Costs {
   double least = 0.0, median = 0.0, most = 0.0; ///< of the blocks
   dem::StepTimes parts;                         ///< mean over all blocks
   double mean = 0.0;
+  double cpu = 0.0; ///< of all ranks together
 };
 
 /// What one workload showed.
@@ -86,8 +89,11 @@ struct Figures {
   Costs ns;
   std::size_t n_steps = 0, n_particles = 0, n_bonds = 0, n_candidates = 0, n_contacts = 0;
   std::size_t n_rebuilds = 0, n_broken = 0, n_yielded = 0;
-  double bytes = 0.0;      ///< of the containers
-  double peak_bytes = 0.0; ///< resident, of the process so far
+  int n_ranks = 1;
+  double messages = 0.0, message_bytes = 0.0; ///< of the busiest rank, a step
+  double reductions = 0.0;                    ///< global ones, a step
+  double bytes = 0.0;                         ///< of the containers, all ranks
+  double peak_bytes = 0.0;                    ///< resident, of the process so far
   std::uint64_t checksum = 0;
 };
 
@@ -115,12 +121,24 @@ double peak_resident_bytes()
   return 1024.0 * static_cast<double>(usage.ru_maxrss); // Linux counts kilobytes
 }
 
+/// User and system time of this process [s].
+double cpu_seconds()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 Costs run_blocks(WorkingRock& working, std::size_t steps_a_block, std::size_t n_blocks)
 {
   dem::Rock& rock = working.rock;
   rock.times = {};
   const double n = static_cast<double>(rock.particles.size() * steps_a_block);
   std::vector<double> blocks;
+  const double cpu_before = cpu_seconds();
   for (std::size_t b = 0; b < n_blocks; ++b) {
     const double start = dem::wall_clock();
     for (std::size_t k = 0; k < steps_a_block; ++k) working.step();
@@ -128,9 +146,12 @@ Costs run_blocks(WorkingRock& working, std::size_t steps_a_block, std::size_t n_
   }
   Costs c;
   for (const double ns : blocks) c.mean += ns / static_cast<double>(n_blocks);
+  const double cpu_ns = 1e9 * (cpu_seconds() - cpu_before);
+  c.cpu = static_cast<double>(rock.domain.sum(static_cast<std::size_t>(cpu_ns))) /
+          (n * static_cast<double>(n_blocks));
   c.parts = rock.times;
-  for (double* part :
-       {&c.parts.motion, &c.parts.lists, &c.parts.bonds, &c.parts.contacts, &c.parts.walls})
+  for (double* part : {&c.parts.motion, &c.parts.lists, &c.parts.bonds, &c.parts.contacts,
+                       &c.parts.walls, &c.parts.exchange})
     *part *= 1e9 / (n * static_cast<double>(n_blocks));
   std::sort(blocks.begin(), blocks.end());
   c.least = blocks.front();
@@ -142,25 +163,38 @@ Costs run_blocks(WorkingRock& working, std::size_t steps_a_block, std::size_t n_
 Figures measure(const WorkloadSpec& spec, std::size_t steps_a_block, std::size_t n_blocks)
 {
   WorkingRock working = make_workload(spec);
+  dem::Rock& rock = working.rock;
+  Figures f;
+  f.n_bonds = rock.bonds.size();
+  dem::share_out(rock, MPI_COMM_WORLD);
   constexpr int steps_to_warm_up = 20;
   for (int k = 0; k < steps_to_warm_up; ++k) working.step();
 
-  const dem::Rock& rock = working.rock;
   const std::size_t rebuilds = rock.list.n_builds(), broken = rock.losses.broken,
                     yielded = rock.losses.yielded;
-  Figures f;
+  const dem::Traffic before = rock.domain.traffic();
   f.ns = run_blocks(working, steps_a_block, n_blocks);
   f.n_steps = steps_a_block * n_blocks;
   f.n_particles = rock.particles.size();
-  f.n_bonds = rock.bonds.size();
-  f.n_candidates = rock.contacts.pairs.size();
-  f.n_contacts = count_contacts(rock);
+  const dem::Traffic after = rock.domain.traffic();
+  const auto a_step = [&](std::size_t now, std::size_t then) {
+    return rock.domain.greatest(static_cast<double>(now - then)) /
+           static_cast<double>(f.n_steps);
+  };
+  f.messages = a_step(after.messages, before.messages);
+  f.message_bytes = a_step(after.bytes, before.bytes);
+  f.reductions = a_step(after.reductions, before.reductions);
+  f.n_ranks = rock.domain.n_ranks();
   f.n_rebuilds = rock.list.n_builds() - rebuilds;
-  f.n_broken = rock.losses.broken - broken;
-  f.n_yielded = rock.losses.yielded - yielded;
-  f.bytes = bytes_of(rock);
-  f.peak_bytes = peak_resident_bytes();
-  f.checksum = checksum(rock.particles);
+  f.n_broken = rock.domain.sum(rock.losses.broken - broken);
+  f.n_yielded = rock.domain.sum(rock.losses.yielded - yielded);
+  f.bytes = static_cast<double>(rock.domain.sum(static_cast<std::size_t>(bytes_of(rock))));
+  f.peak_bytes =
+      static_cast<double>(rock.domain.sum(static_cast<std::size_t>(peak_resident_bytes())));
+  const dem::Rock all = dem::whole(rock);
+  f.n_candidates = all.contacts.pairs.size();
+  f.n_contacts = count_contacts(all);
+  f.checksum = checksum(all.particles);
   return f;
 }
 
@@ -219,6 +253,11 @@ std::vector<Figure> figures(const WorkloadSpec& spec, const Figures& f)
       {"bonds", "%", share(part.bonds), 1},
       {"contacts", "%", share(part.contacts), 1},
       {"walls", "%", share(part.walls), 1},
+      {"other ranks", "%", share(part.exchange), 1},
+      {"processor time of all ranks per particle-step", "ns", f.ns.cpu, 1},
+      {"ghost messages of the busiest rank in a step", "-", f.messages, 1},
+      {"bytes in them", "byte", f.message_bytes, 0},
+      {"global reductions in a step", "-", f.reductions, 2},
       {"rebuilds", "-", static_cast<double>(f.n_rebuilds), 0},
       {"bonds per particle", "-", ratio(f.n_bonds, f.n_particles), 3},
       {"contacts per particle", "-", ratio(f.n_contacts, f.n_particles), 3},
@@ -256,7 +295,8 @@ void print_figure(const Figure& f)
 void print(const WorkloadSpec& spec, const Figures& f)
 {
   std::cout << name_of(spec.workload) << ": " << f.n_particles << " particles, "
-            << f.n_steps << " steps, seed " << spec.seed << ", 1 rank\n";
+            << f.n_steps << " steps, seed " << spec.seed << ", " << f.n_ranks
+            << (f.n_ranks == 1 ? " rank\n" : " ranks\n");
   for (const Figure& figure : figures(spec, f)) print_figure(figure);
   std::cout << "  checksum of x, v, omega                      " << hexadecimal(f.checksum)
             << std::endl;
@@ -271,8 +311,8 @@ Line csv_line(const WorkloadSpec& spec, const Figures& f, double triad)
 {
   std::ostringstream header, text;
   header << "workload,particles [-],ranks [-],steps [-],seed [-]";
-  text << name_of(spec.workload) << ',' << f.n_particles << ",1," << f.n_steps << ','
-       << spec.seed;
+  text << name_of(spec.workload) << ',' << f.n_particles << ',' << f.n_ranks << ','
+       << f.n_steps << ',' << spec.seed;
   for (const Figure& figure : figures(spec, f)) {
     std::string name = figure.name;
     if (name.starts_with("time per") && name.find("particle") == std::string::npos)
@@ -331,7 +371,8 @@ void write_block(const std::filesystem::path& file, const WorkingRock& working)
 int run_bench(const BenchOptions& o)
 {
   if (!o.block.empty()) {
-    write_block(o.block, make_workload(spec_of(o, Workload::bonded_block)));
+    on_first_rank(
+        [&] { write_block(o.block, make_workload(spec_of(o, Workload::bonded_block))); });
     std::cout << "block: " << o.block.string() << '\n';
     return 0;
   }
@@ -351,7 +392,7 @@ int run_bench(const BenchOptions& o)
   if (o.output.empty()) return 0;
   std::vector<Line> lines;
   for (const auto& [s, f] : found) lines.push_back(csv_line(s, f, triad));
-  append(o.output, lines);
+  on_first_rank([&] { append(o.output, lines); });
   std::cout << "table: " << o.output.string() << '\n';
   return 0;
 }
