@@ -17,7 +17,9 @@ namespace {
 std::vector<double> interface_springs(const dem::Rock& rock,
                                       const coupling::Transfer& transfer)
 {
-  const dem::Wall& wall = rock.walls.front();
+  // Of the places now, not of those when the lists were built: that instant must not show.
+  dem::Wall wall = rock.walls.front();
+  dem::rebuild_wall(wall, rock.particles, rock.list.skin());
   std::vector<dem::ForceSum> sums(wall.x.size()); // [N/m]
   const auto add = [&](int triangle, const dem::Vec3& weight, double k) {
     const dem::Triangle& t = wall.topology.triangles[static_cast<std::size_t>(triangle)];
@@ -153,7 +155,7 @@ void relax(CoupledRock& coupled, const char* stage, double ratio, std::size_t mo
     dem::check_overlaps(coupled.rock);
     now = coupled.unbalanced();
     first = std::max(first, now);
-    if (coupled.rock.losses.broken > 0)
+    if (coupled.rock.domain.sum(coupled.rock.losses.broken) > 0)
       throw NumericalError(
           "a bond broke before anything was driven (" + shown(now) +
           "): the specimen is too weak for its own weight, or was made under pressure");

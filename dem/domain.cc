@@ -135,6 +135,8 @@ void Domain::partition(Particles& p, const std::vector<double>& weight)
   for (const Owner& o : gather(shared)) is_owned[o.grain] = o.rank == rank_;
   p.set_ownership(std::move(is_owned), std::vector<char>(p.size(), 0));
   list_owners(p);
+  if (sum(p.n_owned()) != p.size())
+    throw NumericalError("sharing the grains out left some without an owner");
 }
 
 void Domain::list_owners(const Particles& p)

@@ -231,17 +231,15 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
   return sorted(found, p.size());
 }
 
-bool VerletList::is_stale(const Particles& p)
+double VerletList::travel(const Particles& p) const
 {
-  if (x_built_.size() != p.size()) return true;
-  if (travel_ <= 0.5 * skin_) return false;
+  if (x_built_.size() != p.size()) return std::numeric_limits<double>::infinity();
   double most2 = 0.0; // of the motion over S
   p.for_owned([&](Index i) {
     const double S = p.body[i].S;
     most2 = std::max(most2, (p.body[i].x - x_built_[i]).squaredNorm() / (S * S));
   });
-  travel_ = std::sqrt(most2);
-  return travel_ > 0.5 * skin_;
+  return std::sqrt(most2);
 }
 
 void VerletList::rebuild(const Particles& p, const PeriodicCell& cell, const Bonds& bonds,

@@ -24,13 +24,26 @@ public:
   /// @param g_a activation gap, @param skin margin; both at S = 1 [m], both scale with S
   VerletList(double g_a, double skin) : g_a_(g_a), skin_(skin) {}
 
-  /// Tell that since the last call no owned particle moved by more than `most` S [m]. Whoever
-  /// moves particles tells it, or invalidates the list.
+  /// Tell that since the last call no particle, of any rank, moved by more than `most` S [m].
+  /// Whoever moves particles tells it, or invalidates the list.
   void add_motion(double most) { travel_ += most; }
 
-  /// True when an owned particle moved by half its skin since the last build, or there was
-  /// none. Looks at the particles only once the sum of the motions told allows it.
-  bool is_stale(const Particles& p);
+  /// True when the motions told since the last build allow a particle to have moved by half
+  /// its skin, or there was no build.
+  bool may_be_stale(const Particles& p) const
+  {
+    return x_built_.size() != p.size() || travel_ > 0.5 * skin_;
+  }
+  /// Largest motion over S of an owned particle since the last build [m]; infinite without.
+  double travel(const Particles& p) const;
+  /// The greatest travel() of all ranks: true when a particle moved by half its skin.
+  bool is_stale(double greatest)
+  {
+    travel_ = greatest;
+    return travel_ > 0.5 * skin_;
+  }
+  /// The same on one rank.
+  bool is_stale(const Particles& p) { return may_be_stale(p) && is_stale(travel(p)); }
 
   /// Replace the pairs of `contacts`, those ever bonded left out, and keep the shear
   /// history.

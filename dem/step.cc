@@ -53,10 +53,12 @@ void sum_wall_forces(Rock& rock)
   sums.run(rock.domain);
 }
 
-/// Half of the skin belongs to the particles, half to the walls.
+/// Half of the skin belongs to the particles, half to the walls. The same on all ranks.
 bool lists_are_stale(Rock& rock)
 {
-  if (rock.list.is_stale(rock.particles)) return true;
+  if (rock.list.may_be_stale(rock.particles) &&
+      rock.list.is_stale(rock.domain.greatest(rock.list.travel(rock.particles))))
+    return true;
   const double allowed = rock.list.wall_allowance();
   for (const PlaneWall& w : rock.planes)
     if (w.contacts.has_moved(w.plane.point, allowed)) return true;
@@ -87,7 +89,7 @@ void add_forces(Rock& rock, double dt)
   rock.domain.update_ghosts(p);
   lap(rock.times.exchange);
   for (Wall& w : rock.walls) update_normals(w);
-  if (rock.domain.any(lists_are_stale(rock))) rebuild_lists(rock);
+  if (lists_are_stale(rock)) rebuild_lists(rock); // walls are the same on all ranks
   clear_loads(p);
   lap(rock.times.lists);
 

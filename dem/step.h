@@ -118,8 +118,11 @@ void advance(Rock& rock, double dt_before, double dt, MoveWalls&& move_walls)
 {
   const double start = wall_clock();
   const double dt_kick = 0.5 * (dt_before + dt);
-  rock.list.add_motion(kick_and_drift(rock.particles, rock.motion, dt_kick, dt, rock.work));
-  rock.times.motion += wall_clock() - start;
+  const double most = kick_and_drift(rock.particles, rock.motion, dt_kick, dt, rock.work);
+  const double moved = wall_clock();
+  rock.times.motion += moved - start;
+  rock.list.add_motion(rock.domain.greatest(most));
+  rock.times.exchange += wall_clock() - moved;
   // Work of the forces at t^n on the mean motion of the walls around t^n.
   const WallPower before = wall_power(rock);
   move_walls(dt);
