@@ -386,7 +386,8 @@ int run_bench(const BenchOptions& o)
     found.emplace_back(spec, measure(spec, steps_a_block, n_blocks));
     print(spec, found.back().second);
   }
-  const double triad = triad_rate();
+  double triad = 0.0;
+  on_first_rank([&] { triad = triad_rate(); });
   print_figure({"memory bandwidth, triad on one core", "GB/s", 1e-9 * triad, 1});
 
   if (o.output.empty()) return 0;

@@ -2,7 +2,6 @@
 
 #include "apps/command_line.h"
 #include "apps/jobs.h"
-#include "apps/ranks.h"
 #include "apps/run_guard.h"
 #include "apps/words.h"
 #include "dem/error.h"
@@ -119,15 +118,14 @@ int run(int argc, char** argv)
   }
 
   fem::Runtime runtime(argc, argv);
-  return run_guarded([&] {
-    silence_other_ranks();
-    return start();
-  });
+  return run_guarded(start);
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
+  // Words to the user come from the first rank alone.
+  if (launched_rank() > 0) std::cout.setstate(std::ios::badbit);
   return run_guarded([&] { return run(argc, argv); });
 }

@@ -3,8 +3,8 @@
 
 #include "dem/error.h"
 
-#include <iostream>
 #include <mpi.h>
+#include <stdexcept>
 #include <string>
 
 namespace mergel::apps {
@@ -21,13 +21,6 @@ inline bool is_first_rank()
   return rank_of_world() == 0;
 }
 
-/// From here on std::cout is empty on all ranks but the first. What goes wrong is said on
-/// std::cerr by whom it befalls (run_guard.h).
-inline void silence_other_ranks()
-{
-  if (!is_first_rank()) std::cout.setstate(std::ios::badbit);
-}
-
 /// Run `body` on the first rank while the others wait. Bad input found there is thrown on
 /// all, so that the run ends with its exit code; any other exception goes on where it is.
 template <class Body>
@@ -37,7 +30,7 @@ void on_first_rank(Body&& body)
   if (is_first_rank()) {
     try {
       body();
-    } catch (const InputError& error) {
+    } catch (const std::invalid_argument& error) { // as run_guard.h sees bad input
       message = error.what();
       if (message.empty()) message = "bad input";
     }

@@ -10,6 +10,7 @@
 
 #include <mpi.h>
 
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -52,6 +53,14 @@ inline Verdict judge_current_exception()
   }
 }
 
+/// The rank that the launcher gave this process, known before MPI is up; -1 without one.
+inline int launched_rank()
+{
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
+    if (const char* text = std::getenv(name)) return std::atoi(text);
+  return -1;
+}
+
 /// Run `body` and return its exit code, or print what it threw on std::cerr and return the
 /// code of that.
 ///
@@ -70,6 +79,13 @@ int run_guarded(const Body& body)
     int is_up = 0, is_down = 0, rank = 0, n_ranks = 1;
     MPI_Initialized(&is_up);
     MPI_Finalized(&is_down);
+    if (!is_up && launched_rank() >= 0) {
+      // The launcher ends the job at the first exit: the first rank must have spoken by then.
+      MPI_Init(nullptr, nullptr);
+      if (launched_rank() == 0) std::cerr << verdict.message << std::endl;
+      MPI_Finalize();
+      return verdict.code;
+    }
     if (is_up && !is_down) {
       MPI_Comm_rank(MPI_COMM_WORLD, &rank);
       MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);

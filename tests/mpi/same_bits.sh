@@ -33,7 +33,7 @@ tiny=(--set "Specimen/diameter=6 mm" --set "Specimen/height=6 mm" --set "Specime
   --set "Specimen/outer radius=3 mm" --set "Far field/chamber diameter=12 mm"
   --set "Far field/chamber height=12 mm" --set "Output/frames=1" --set "Motion/balance=1e-2"
   --set "Pile/cone angle=120 degree" --set "Pile/final depth=0.15 mm")
-for n in 1 2 3 4; do
+for n in 1 2 3 4 8; do
   ranks $n "$mergel" pile "$root/apps/cases/pile_small.prm" "${tiny[@]}" --output "pile$n" >log 2>&1 ||
     fail "the pile on $n ranks: $(tail -3 log)"
   cmp pile1/history.csv "pile$n/history.csv" || fail "the pile on $n ranks differs from one"
@@ -42,7 +42,7 @@ for n in 1 2 3 4; do
 done
 broken=$(awk -F': ' '/"bonds broken/ { print $2 + 0 }' pile1/summary.json)
 [ "$broken" -gt 20 ] || fail "the pile broke only $broken bonds"
-echo "pile: $broken broken, the same history and grains on 1, 2, 3, 4 ranks"
+echo "pile: $broken broken, the same history and grains on 1, 2, 3, 4, 8 ranks"
 
 # A rank that fails takes the others down, and says which it is.
 code=0
@@ -58,4 +58,7 @@ ranks 2 "$mergel" pile "$root/apps/cases/pile_small.prm" --set "Pile/diameter=-1
 code=0
 ranks 2 "$mergel" pile "$root/apps/cases/pile_small.prm" "${tiny[@]}" --output pile1 >log 2>&1 || code=$?
 [ "$code" -eq 1 ] || fail "an earlier run on two ranks: exit code $code"
+code=0
+ranks 3 "$mergel" bench --steps 0 >log 2>&1 || code=$?
+[ "$code" -eq 1 ] && [ "$(grep -c '^mergel bench:' log)" -eq 1 ] || fail "a bad command line on three ranks: $(cat log)"
 echo "same bits: all holds"
