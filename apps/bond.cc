@@ -148,7 +148,11 @@ std::vector<dem::RelativeMotion> corners(const CaseFile& file, const BondCase& c
                                   l.shear ? c.reach.u_s : 0.0,
                                   l.bending ? c.reach.theta : 0.0};
     if (const std::string wrong = fault(c, end); !wrong.empty())
-      file.refuse("Loading", "mode", wrong);
+      file.refuse("Loading",
+                  l.normal != 0.0 ? "normal displacement"
+                  : l.shear       ? "shear displacement"
+                                  : "rotation",
+                  wrong);
     return {end};
   }
 

@@ -10,7 +10,7 @@
 
 namespace mergel::dem {
 
-/// History of four bonds, and of the far-field contacts that act beside them.
+/// History of n_lanes bonds, and of the far-field contacts that act beside them.
 struct BondBlock {
   Lanes gap_0;       ///< gap at which the bond was made [m]
   Lanes u_p;         ///< plastic normal displacement [m]
@@ -26,7 +26,7 @@ struct BondBlock {
 struct Bonds {
   std::vector<Pair> pairs;
   std::vector<BondBlock>
-      blocks; ///< block k holds pairs 4k .. 4k+3; the last is padded as broken
+      blocks; ///< block k holds n_lanes pairs from k n_lanes on; the last is padded as broken
 
   std::size_t size() const { return pairs.size(); }
   double intact(std::size_t b) const { return blocks[b / n_lanes].intact[b % n_lanes]; }

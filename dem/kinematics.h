@@ -6,7 +6,7 @@
 
 namespace mergel::dem {
 
-/// One end of a pair, or four of them.
+/// One end of a pair, or of a batch of them.
 template <class Real>
 struct End {
   Triple<Real> x;     ///< centre [m]

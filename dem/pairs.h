@@ -7,8 +7,8 @@
 
 namespace mergel::dem {
 
-/// A pair, i < j by global id; ascending in (i, j, shift) everywhere. Particles ascend by
-/// id within the owned range, so on one rank local indices order pairs as ids do.
+/// A pair, i < j; ascending in (i, j, shift) everywhere. Indices name the same particles on
+/// every rank, and ascend with the ids.
 struct Pair {
   Index i, j;
   Shift shift{}; ///< periodic image of j

@@ -9,7 +9,7 @@
 namespace mergel::dem {
 
 /// What the pair loop reads of a grain, together in 96 bytes: three rows of four numbers,
-/// loaded four grains at a time. Separate arrays cost 1.5 times as much here, one cache
+/// loaded for a batch of pairs at a time. Separate arrays cost 1.5 times as much here, one cache
 /// miss each.
 struct alignas(32) Body {
   Vec3 x = Vec3::Zero();     ///< position [m]; never wrapped into a periodic cell

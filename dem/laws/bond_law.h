@@ -13,18 +13,18 @@ namespace mergel::dem {
 
 using BondLaw = std::variant<DamageBond, ParallelBond>;
 
-/// What the force kernel asks of a law: its elastic section, a test that four pairs take at
-/// a time, and the step of one bond that fails it.
+/// What the force kernel asks of a law: its elastic section, a test that a batch of pairs
+/// takes at once, and the step of one bond that fails it.
 // clang-format off
 template <class Law>
 concept IsBondLaw =
     std::derived_from<Law, BondSection> &&
     requires(const Law& law, const BondShape<Lanes>& shapes, const BondShape<double>& shape,
-             const EffectiveLoads<Lanes>& four, const EffectiveLoads<double>& loads,
+             const EffectiveLoads<Lanes>& many, const EffectiveLoads<double>& loads,
              const BondState& state, double S)
 {
   law.check();
-  { is_elastic(law, shapes, four) } -> std::same_as<Mask>;
+  { is_elastic(law, shapes, many) } -> std::same_as<Mask>;
   { is_elastic(law, shape, loads) } -> std::convertible_to<bool>;
   { return_bond(law, shape, S, state, loads, loads) } -> std::same_as<BondReturn>;
   { yield_value(law, shape, loads) } -> std::same_as<double>;

@@ -50,14 +50,18 @@ End<double> lane_of(const End<Lanes>& e, int l)
 
 } // namespace
 
-TEST_CASE("Four rows transpose to four columns", "[unit][dem]")
+TEST_CASE("A row a lane turns into four columns, and back", "[unit][dem]")
 {
-  Lanes a{0, 1, 2, 3}, b{10, 11, 12, 13}, c{20, 21, 22, 23}, d{30, 31, 32, 33};
-  transpose(a, b, c, d);
-  const Lanes* columns[] = {&a, &b, &c, &d};
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-      CHECK((*columns[column])[row] == 10.0 * row + column);
+  Row in[n_lanes], out[n_lanes];
+  for (int l = 0; l < n_lanes; ++l)
+    in[l] = Row{10.0 * l, 10.0 * l + 1, 10.0 * l + 2, 10.0 * l + 3};
+  Lanes column[4];
+  columns(in, column[0], column[1], column[2], column[3]);
+  for (int l = 0; l < n_lanes; ++l)
+    for (int k = 0; k < 4; ++k) CHECK(column[k][l] == 10.0 * l + k);
+  rows(column[0], column[1], column[2], column[3], out);
+  for (int l = 0; l < n_lanes; ++l)
+    for (int k = 0; k < 4; ++k) CHECK(out[l][k] == in[l][k]);
 }
 
 TEST_CASE("A lane-wise choice takes each lane by its own condition", "[unit][dem]")
