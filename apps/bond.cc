@@ -220,16 +220,17 @@ private:
   double energy_scale_ = 0.0, energy_error_ = 0.0;
 };
 
-void write_summary(const std::filesystem::path& file, const BondCase& c,
-                   const dem::SingleStrengths& strong, const Record& record,
-                   const dem::DrivenPair& pair)
+void write_summary(const std::filesystem::path& file, const dem::BondLaw& law,
+                   const Record& record, const dem::DrivenPair& pair)
 {
+  const dem::SingleStrengths strong = std::visit(
+      [&](const auto& bond) { return single_strengths(bond, pair.shape()); }, law);
   std::ostringstream out;
   const auto number = [&](const char* name, double value, const char* end = ",\n") {
     out << "  \"" << name << "\": " << dem::shortest(value) << end;
   };
   out << "{\n  \"bond law\": \""
-      << (c.bond.law == BondKeys::Law::damage ? "damage" : "parallel") << "\",\n";
+      << std::visit([](const auto& bond) { return bond.name; }, law) << "\",\n";
   number("tensile strength [N]", strong.tension);
   if (std::isfinite(strong.compression))
     number("compressive strength [N]", strong.compression);
@@ -305,9 +306,7 @@ void drive_bond(const JobOptions& options)
       record.add(pair);
     }
   }
-  const dem::SingleStrengths strong = std::visit(
-      [&](const auto& bond) { return single_strengths(bond, pair.shape()); }, law);
-  write_summary(folder.path() / "summary.json", c, strong, record, pair);
+  write_summary(folder.path() / "summary.json", law, record, pair);
   print_summary(folder.path(), record);
 }
 

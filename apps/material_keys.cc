@@ -55,7 +55,8 @@ void declare(CaseFile& file, BondKeys& b)
   file.choice(
       "bond law", b.law,
       std::vector<std::pair<std::string, BondKeys::Law>>{
-          {"damage", BondKeys::Law::damage}, {"parallel", BondKeys::Law::parallel}},
+          {dem::DamageBond::name, BondKeys::Law::damage},
+          {dem::ParallelBond::name, BondKeys::Law::parallel}},
       "Damage-plasticity bond of the paper, or the elastic-brittle parallel bond of "
       "Potyondy and Cundall (2004).");
   b.section.E = b.section.kappa = unset;
@@ -66,10 +67,10 @@ void declare(CaseFile& file, BondKeys& b)
   file.number("radius ratio", b.section.lambda_b, above_to(0.0, 1.0),
               "Bond radius over the smaller grain radius.");
   {
-    const auto only = file.only_if("bond law", {"damage"});
+    const auto only = file.only_if("bond law", {dem::DamageBond::name});
     declare(file, b.damage);
   }
-  const auto only = file.only_if("bond law", {"parallel"});
+  const auto only = file.only_if("bond law", {dem::ParallelBond::name});
   declare(file, b.parallel);
 }
 

@@ -230,15 +230,6 @@ void Domain::update_ghosts(Particles& p)
       unpack(&q.in[n_motion * k], p.body[q.receive[k]]);
 }
 
-bool Domain::any(bool flag) const
-{
-  if (is_alone()) return flag;
-  int on = flag ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &on, 1, MPI_INT, MPI_MAX, comm_);
-  ++traffic_.reductions;
-  return on != 0;
-}
-
 double Domain::least(double value) const
 {
   if (is_alone()) return value;

@@ -48,9 +48,8 @@ public:
   /// Position, velocity and spin of the ghosts from their owners; collective.
   void update_ghosts(Particles& p);
 
-  bool any(bool flag) const;           ///< true on all ranks where it is on one; collective
-  double least(double value) const;    ///< collective
-  double greatest(double value) const; ///< collective
+  double least(double value) const;         ///< collective
+  double greatest(double value) const;      ///< collective
   std::size_t sum(std::size_t count) const; ///< collective
 
   /// Records of all ranks, in the order of ranks; collective.

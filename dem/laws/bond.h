@@ -41,6 +41,8 @@ enum class BendingFlow { conjugate, published };
 
 /// The paper's bond.
 struct DamageBond : BondSection {
+  static constexpr const char* name = "damage"; ///< in case files and summaries
+
   double sigma_t = 0.0; ///< tensile strength [Pa], > 0, Eq. 6
   double sigma_c = 0.0; ///< compressive strength [Pa], > 0
   double C = 0.0;       ///< shear strength [Pa], > 0

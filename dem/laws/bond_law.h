@@ -23,6 +23,7 @@ concept IsBondLaw =
              const EffectiveLoads<Lanes>& many, const EffectiveLoads<double>& loads,
              const BondState& state, double S)
 {
+  { Law::name } -> std::convertible_to<const char*>;
   law.check();
   { is_elastic(law, shapes, many) } -> std::same_as<Mask>;
   { is_elastic(law, shape, loads) } -> std::convertible_to<bool>;

@@ -24,6 +24,8 @@
 namespace mergel::dem {
 
 struct ParallelBond : BondSection {
+  static constexpr const char* name = "parallel"; ///< in case files and summaries
+
   double sigma_c = 0.0; ///< tensile strength of the cement [Pa], > 0
   double tau_c = 0.0;   ///< shear strength of the cement [Pa], > 0
 
