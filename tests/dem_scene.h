@@ -5,6 +5,7 @@
 #include "dem/integrate.h"
 #include "dem/timestep.h"
 
+#include <array>
 #include <functional>
 #include <random>
 
@@ -120,6 +121,25 @@ struct Scene {
     forces(dt);
     kick(p, motion, dt, work);
     drift(p, dt);
+  }
+
+  /// Move the first two particles by dx [m] and turn them by turn [rad] over the step dt;
+  /// returns the work of the motion against the loads, trapezoidal [J].
+  double move_pair(const std::array<Vec3, 2>& dx, const std::array<Vec3, 2>& turn,
+                   double dt)
+  {
+    const std::vector<Load> before = p.load;
+    for (std::size_t e = 0; e < 2; ++e) {
+      p.body[e].v = dx[e] / dt;
+      p.body[e].omega = turn[e] / dt;
+      p.body[e].x += dx[e];
+    }
+    forces(dt);
+    double work = 0.0;
+    for (std::size_t e = 0; e < 2; ++e)
+      work -= 0.5 * ((before[e].f + p.load[e].f).dot(dx[e]) +
+                     (before[e].t + p.load[e].t).dot(turn[e]));
+    return work;
   }
 
   double stored() const

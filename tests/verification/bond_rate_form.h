@@ -42,6 +42,13 @@ inline double distance(const BondPoint& a, const BondPoint& b)
       {std::abs(a.n - b.n), (a.v - b.v).norm(), (a.m - b.m).norm(), std::abs(a.D - b.D)});
 }
 
+inline double worst(const std::vector<BondPoint>& a, const std::vector<BondPoint>& b)
+{
+  double d = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) d = std::max(d, distance(a[k], b[k]));
+  return d;
+}
+
 /// One bond of the paper's Table 1 (R = 30 mm), with the softening that a test wants.
 struct OneBond {
   DamageBond law = bond_of_table_1();
@@ -184,5 +191,19 @@ private:
   Loads q_;
   double s_ = 0.0;
 };
+
+constexpr int n_checks = 20; ///< times on each leg at which states are compared
+
+/// Add the states of `at` along one straight leg of motion `leg`, with n steps between two.
+template <class Integrator>
+void follow_leg(Integrator& at, const BondMotion& leg, int n,
+                std::vector<BondPoint>& states)
+{
+  const BondMotion du = (1.0 / (n_checks * n)) * leg;
+  for (int step = 1; step <= n_checks * n; ++step) {
+    at.step(du);
+    if (step % n == 0) states.push_back(at.at());
+  }
+}
 
 } // namespace mergel::dem::test

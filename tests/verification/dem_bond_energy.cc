@@ -31,17 +31,7 @@ struct MovedPair {
   }
   void move(const EndMotion& m)
   {
-    const std::vector<Load> before = s.p.load;
-    const Vec3 dx[] = {m.dx_i, m.dx_j}, turn[] = {m.turn_i, m.turn_j};
-    for (std::size_t e = 0; e < 2; ++e) {
-      s.p.body[e].v = dx[e] / dt;
-      s.p.body[e].omega = turn[e] / dt;
-      s.p.body[e].x += dx[e];
-    }
-    s.forces(dt);
-    for (std::size_t e = 0; e < 2; ++e)
-      work -= 0.5 * ((before[e].f + s.p.load[e].f).dot(dx[e]) +
-                     (before[e].t + s.p.load[e].t).dot(turn[e]));
+    work += s.move_pair({m.dx_i, m.dx_j}, {m.turn_i, m.turn_j}, dt);
   }
   /// Stretch by du; shear by turning both ends alike, which leaves the normal; bend by
   /// turning them apart.

@@ -38,29 +38,14 @@ const Path paths[] = {
      {{1, 0.5 * ex, 0.2 * ey}, {0.2, 1 * ey, 1 * ex}, {-1.2, 0.3 * ex, 0.5 * ey}}},
 };
 
-constexpr int n_checks = 20; ///< times on each leg at which states are compared
-
 /// States along the path, with n steps between two checks.
 template <class Integrator>
 std::vector<BondPoint> follow(const Path& path, const OneBond& bond, int n)
 {
   std::vector<BondPoint> out;
   Integrator at(bond);
-  for (const Leg& leg : path.legs) {
-    const BondMotion du = (1.0 / (n_checks * n)) * bond.motion(leg.n, leg.v, leg.m);
-    for (int step = 1; step <= n_checks * n; ++step) {
-      at.step(du);
-      if (step % n == 0) out.push_back(at.at());
-    }
-  }
+  for (const Leg& leg : path.legs) follow_leg(at, bond.motion(leg.n, leg.v, leg.m), n, out);
   return out;
-}
-
-double worst(const std::vector<BondPoint>& a, const std::vector<BondPoint>& b)
-{
-  double d = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) d = std::max(d, distance(a[k], b[k]));
-  return d;
 }
 
 /// True loads over strengths, greatest of each.

@@ -143,27 +143,13 @@ const Path combined[] = {
     {"shear and bending", 0, 3, 2},          {"tension and bending", 2, 0, 2},
     {"tension and shear", 2, 2, 0}};
 
-constexpr int n_checks = 20;
-
 /// States at 20 times along the path, with n steps between two.
 template <class Integrator>
 std::vector<BondPoint> follow(const Path& path, const OneBond& bond, Integrator at, int n)
 {
-  const BondMotion du =
-      (1.0 / (n_checks * n)) * bond.motion(path.n, Vec2(path.v, 0.0), Vec2(0.0, path.m));
   std::vector<BondPoint> out;
-  for (int step = 1; step <= n_checks * n; ++step) {
-    at.step(du);
-    if (step % n == 0) out.push_back(at.at());
-  }
+  follow_leg(at, bond.motion(path.n, Vec2(path.v, 0.0), Vec2(0.0, path.m)), n, out);
   return out;
-}
-
-double worst(const std::vector<BondPoint>& a, const std::vector<BondPoint>& b)
-{
-  double d = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) d = std::max(d, distance(a[k], b[k]));
-  return d;
 }
 
 const Reading mended{}, printed{Multiplier::as_printed, ClosestPoint::gradient_only},

@@ -56,21 +56,11 @@ struct StrainedPair {
   /// for shear, which leaves the normal where it is.
   void load(const Loads& dq)
   {
-    const std::vector<Load> before = s.p.load;
     const double du = dq.N / k_n;
     const double length = s.p.body[1].x.x() - s.p.body[0].x.x() + du;
     const Vec3 along(0.5 * du, 0, 0), alike(0, 0, -dq.V / k_s / length);
     const Vec3 apart(0.5 * dq.T / k_t, 0, 0.5 * dq.M / k_b);
-    const Vec3 dx[] = {-along, along}, turn[] = {alike - apart, alike + apart};
-    for (std::size_t e = 0; e < 2; ++e) {
-      s.p.body[e].v = dx[e] / dt;
-      s.p.body[e].omega = turn[e] / dt;
-      s.p.body[e].x += dx[e];
-    }
-    s.forces(dt);
-    for (std::size_t e = 0; e < 2; ++e)
-      work -= 0.5 * ((before[e].f + s.p.load[e].f).dot(dx[e]) +
-                     (before[e].t + s.p.load[e].t).dot(turn[e]));
+    work += s.move_pair({-along, along}, {alike - apart, alike + apart}, dt);
   }
   Loads now() const
   {
