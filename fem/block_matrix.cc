@@ -28,49 +28,112 @@ void BlockMatrix::add(std::uint32_t i, std::uint32_t j, const Mat3& B)
   Eigen::Map<Mat3>(value_.data() + 9 * (found - column_.begin())) += B;
 }
 
+namespace {
+
+constexpr Lanes zero = {0.0, 0.0, 0.0, 0.0};
+
+Lanes node(const Nodal& x, std::size_t a)
+{
+  Lanes lanes;
+  std::memcpy(&lanes, x.data() + 4 * a, sizeof lanes);
+  return lanes;
+}
+
+void set_node(Nodal& y, std::size_t a, Lanes lanes)
+{
+  std::memcpy(y.data() + 4 * a, &lanes, sizeof lanes);
+}
+
+/// The columns of a block; the fourth lane holds whatever comes next and is multiplied by
+/// the zero beside a node's three numbers, or cut off when the row is done.
+struct Columns {
+  Lanes a_0, a_1, a_2;
+
+  explicit Columns(const double* block)
+  {
+    std::memcpy(&a_0, block, sizeof a_0);
+    std::memcpy(&a_1, block + 3, sizeof a_1);
+    std::memcpy(&a_2, block + 6, sizeof a_2);
+  }
+  Lanes times(Lanes x) const { return a_0 * x[0] + a_1 * x[1] + a_2 * x[2]; }
+  /// A^T x: three dot products, summed pairwise.
+  Lanes transposed_times(Lanes x) const
+  {
+    const Lanes t_0 = a_0 * x, t_1 = a_1 * x, t_2 = a_2 * x;
+    const Lanes s_01 = __builtin_shufflevector(t_0, t_1, 0, 4, 2, 6) +
+                       __builtin_shufflevector(t_0, t_1, 1, 5, 3, 7);
+    const Lanes s_2 = __builtin_shufflevector(t_2, zero, 0, 4, 2, 6) +
+                      __builtin_shufflevector(t_2, zero, 1, 5, 3, 7);
+    return __builtin_shufflevector(s_01, s_2, 0, 1, 4, 5) +
+           __builtin_shufflevector(s_01, s_2, 2, 3, 6, 7);
+  }
+};
+
+/// y = left of the diagonal, one after another, plus the sum of all others.
+Lanes whole_row(Lanes left, Lanes sum)
+{
+  left += sum;
+  left[3] = 0.0;
+  return left;
+}
+
+} // namespace
+
 void BlockMatrix::multiply(const Nodal& x, Nodal& y) const
 {
   y.setZero(4, x.cols());
-  const double* const xs = x.data();
-  double* const ys = y.data();
-  const Lanes zero = {0.0, 0.0, 0.0, 0.0};
-  const double* a = value_.data();
-
   for (std::uint32_t i = 0; i < n_rows(); ++i) {
-    Lanes x_i;
-    std::memcpy(&x_i, xs + 4 * i, sizeof x_i);
+    const Lanes x_i = node(x, i);
     Lanes sum = zero;
-    for (std::size_t k = row_[i]; k < row_[i + 1]; ++k, a += 9) {
-      // The columns of the block; the fourth lane holds whatever comes next and is
-      // multiplied by the zero of x_i below, or cut off when the row is done.
-      Lanes a_0, a_1, a_2;
-      std::memcpy(&a_0, a, sizeof a_0);
-      std::memcpy(&a_1, a + 3, sizeof a_1);
-      std::memcpy(&a_2, a + 6, sizeof a_2);
-
+    for (std::size_t k = row_[i]; k < row_[i + 1]; ++k) {
+      const Columns A_ij(value_.data() + 9 * k);
       const std::size_t j = column_[k];
-      const double* const x_j = xs + 4 * j;
-      sum += a_0 * x_j[0] + a_1 * x_j[1] + a_2 * x_j[2]; // y_i += A_ij x_j
-      if (j == i) continue;
-
-      // y_j += A_ij^T x_i: three dot products, summed pairwise
-      const Lanes t_0 = a_0 * x_i, t_1 = a_1 * x_i, t_2 = a_2 * x_i;
-      const Lanes s_01 = __builtin_shufflevector(t_0, t_1, 0, 4, 2, 6) +
-                         __builtin_shufflevector(t_0, t_1, 1, 5, 3, 7);
-      const Lanes s_2 = __builtin_shufflevector(t_2, zero, 0, 4, 2, 6) +
-                        __builtin_shufflevector(t_2, zero, 1, 5, 3, 7);
-      Lanes y_j;
-      std::memcpy(&y_j, ys + 4 * j, sizeof y_j);
-      y_j += __builtin_shufflevector(s_01, s_2, 0, 1, 4, 5) +
-             __builtin_shufflevector(s_01, s_2, 2, 3, 6, 7);
-      std::memcpy(ys + 4 * j, &y_j, sizeof y_j);
+      sum += A_ij.times(node(x, j));
+      if (j != i) set_node(y, j, node(y, j) + A_ij.transposed_times(x_i));
     }
-    Lanes y_i;
-    std::memcpy(&y_i, ys + 4 * i, sizeof y_i);
-    y_i += sum;
-    y_i[3] = 0.0;
-    std::memcpy(ys + 4 * i, &y_i, sizeof y_i);
+    set_node(y, i, whole_row(node(y, i), sum));
   }
+}
+
+BlockMatrix::Rows BlockMatrix::rows(std::uint32_t begin, std::uint32_t end) const
+{
+  std::vector<std::vector<Rows::Left>> left(end - begin);
+  for (std::uint32_t i = 0; i < end; ++i)
+    for (std::size_t k = row_[i] + 1; k < row_[i + 1]; ++k)
+      if (column_[k] >= begin && column_[k] < end)
+        left[column_[k] - begin].push_back({k, i});
+
+  Rows rows{begin, end, {0}, {}};
+  for (const auto& row : left) {
+    rows.left.insert(rows.left.end(), row.begin(), row.end());
+    rows.first.push_back(rows.left.size());
+  }
+  return rows;
+}
+
+void BlockMatrix::multiply(const Nodal& x, Nodal& y, const Rows& rows) const
+{
+  for (std::uint32_t i = rows.begin; i < rows.end; ++i) {
+    Lanes left = zero, sum = zero;
+    for (std::size_t l = rows.first[i - rows.begin]; l < rows.first[i - rows.begin + 1];
+         ++l)
+      left += Columns(value_.data() + 9 * rows.left[l].block)
+                  .transposed_times(node(x, rows.left[l].column));
+    for (std::size_t k = row_[i]; k < row_[i + 1]; ++k)
+      sum += Columns(value_.data() + 9 * k).times(node(x, column_[k]));
+    set_node(y, i, whole_row(left, sum));
+  }
+}
+
+std::vector<std::size_t> BlockMatrix::blocks_by_row() const
+{
+  std::vector<std::size_t> n(n_rows(), 0);
+  for (std::uint32_t i = 0; i < n_rows(); ++i)
+    for (std::size_t k = row_[i]; k < row_[i + 1]; ++k) {
+      ++n[i];
+      if (column_[k] != i) ++n[column_[k]];
+    }
+  return n;
 }
 
 } // namespace mergel::fem

@@ -27,6 +27,24 @@ public:
   /// y = A x. Both have n_rows() columns; they may not be the same object.
   void multiply(const Nodal& x, Nodal& y) const;
 
+  /// Rows [begin, end) in full: the blocks left of their diagonals are stored in other rows.
+  struct Rows {
+    struct Left {
+      std::size_t block;    ///< the transposed of
+      std::uint32_t column; ///< that it multiplies
+    };
+    std::uint32_t begin = 0, end = 0;
+    std::vector<std::size_t> first; ///< of `left`, by row, and the end
+    std::vector<Left> left;         ///< columns ascending
+  };
+  Rows rows(std::uint32_t begin, std::uint32_t end) const;
+
+  /// The same y in these rows, bit for bit; the others stay as they are.
+  void multiply(const Nodal& x, Nodal& y, const Rows& rows) const;
+
+  /// Stored or left of the diagonal, by row: what its product costs.
+  std::vector<std::size_t> blocks_by_row() const;
+
   std::uint32_t n_rows() const { return static_cast<std::uint32_t>(row_.size()) - 1; }
   std::size_t n_blocks() const
   {

@@ -156,11 +156,11 @@ void FarFieldSpec::check() const
 }
 
 struct FarField::Parts {
-  explicit Parts(const FarFieldSpec& spec)
+  Parts(const FarFieldSpec& spec, MPI_Comm comm)
       : count(layers(geometry(spec))), solid(meshed(spec), properties(spec), supports(spec))
   {
     std::tie(interface, nodes) = make_interface(solid);
-    motion = std::make_unique<Leapfrog>(solid.discrete(), spec.damping, nodes);
+    motion = std::make_unique<Leapfrog>(solid.discrete(), spec.damping, nodes, comm);
   }
 
   dealii::Triangulation<3>& meshed(const FarFieldSpec& spec)
@@ -177,10 +177,10 @@ struct FarField::Parts {
   std::unique_ptr<Leapfrog> motion;
 };
 
-FarField::FarField(const FarFieldSpec& spec)
+FarField::FarField(const FarFieldSpec& spec, MPI_Comm comm)
 {
   spec.check();
-  parts_ = std::make_unique<Parts>(spec);
+  parts_ = std::make_unique<Parts>(spec, comm);
 }
 FarField::~FarField() = default;
 FarField::FarField(FarField&&) noexcept = default;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <mpi.h>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,12 +54,13 @@ struct InterfaceMesh {
 
 /// Linear elastic, small strain; geostatic initial stress sigma_v = rho g z, sigma_h = K0
 /// sigma_v (tension positive); base fixed, cut plane and (by default) chamber wall on
-/// rollers, top free. Replicated: every rank that holds one computes the same bits. Needs a
-/// fem::Runtime.
+/// rollers, top free. Every rank holds it whole and gets the same bits; the product with the
+/// stiffness, most of a step's cost, is shared out over the ranks. Needs a fem::Runtime.
 class FarField {
 public:
   /// Builds the mesh and assembles. Throws as FarFieldSpec::check does.
-  explicit FarField(const FarFieldSpec& spec);
+  /// @param comm ranks that hold it and call step() together; it must outlive the object
+  explicit FarField(const FarFieldSpec& spec, MPI_Comm comm = MPI_COMM_NULL);
   ~FarField();
   FarField(FarField&&) noexcept;
   FarField& operator=(FarField&&) noexcept;

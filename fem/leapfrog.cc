@@ -7,8 +7,8 @@
 namespace mergel::fem {
 
 Leapfrog::Leapfrog(const DiscreteSolid& solid, double alpha,
-                   std::vector<std::uint32_t> loaded)
-    : solid_(solid), alpha_(alpha), loaded_(std::move(loaded))
+                   std::vector<std::uint32_t> loaded, MPI_Comm comm)
+    : solid_(solid), product_(solid.K, comm), alpha_(alpha), loaded_(std::move(loaded))
 {
   if (!(alpha >= 0.0 && alpha < 1.0))
     throw std::invalid_argument("local damping of the solid = " + std::to_string(alpha) +
@@ -34,7 +34,7 @@ void Leapfrog::take_interface_forces(std::span<const Vec3> f)
 void Leapfrog::step(double dt, std::span<const Vec3> f)
 {
   take_interface_forces(f);
-  solid_.K.multiply(now_.u, now_.Ku);
+  product_.multiply(now_.u, now_.Ku);
 
   const double dt_kick = now_.dt > 0.0 ? 0.5 * (now_.dt + dt) : dt;
   const auto n = static_cast<Eigen::Index>(solid_.n_nodes());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fem/discrete_solid.h"
+#include "fem/shared_product.h"
 
 #include <span>
 
@@ -45,7 +46,9 @@ class Leapfrog {
 public:
   /// @param alpha local damping [-], 0 <= alpha < 1
   /// @param loaded nodes that take interface forces, in the order in which step() gets them
-  Leapfrog(const DiscreteSolid& solid, double alpha, std::vector<std::uint32_t> loaded);
+  /// @param comm ranks that share the product K u, each calling step() with the same forces
+  Leapfrog(const DiscreteSolid& solid, double alpha, std::vector<std::uint32_t> loaded,
+           MPI_Comm comm = MPI_COMM_NULL);
 
   /// One step of dt [s] > 0 under forces f [N], one for each loaded node. Allocates
   /// nothing.
@@ -71,6 +74,7 @@ private:
   void take_interface_forces(std::span<const Vec3> f);
 
   const DiscreteSolid& solid_;
+  SharedProduct product_;
   double alpha_;
   std::vector<std::uint32_t> loaded_;
   std::vector<double> inverse_m_; // [1/kg]

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstring>
+
 using namespace mergel::fem;
 
 TEST_CASE("A product of the block matrix is that of the full symmetric matrix",
@@ -41,6 +43,35 @@ TEST_CASE("A product of the block matrix is that of the full symmetric matrix",
     CHECK((at(y, a) - expected.segment<3>(3 * a)).norm() < 1e-14 * expected.norm());
     CHECK(y(3, a) == 0.0); // padding stays zero
   }
+}
+
+TEST_CASE("Rows shared out give the bits of the whole product", "[unit][fem]")
+{
+  // A band of irregular couplings: every row has blocks on both sides of its diagonal.
+  const std::uint32_t n = 40;
+  std::vector<std::vector<std::uint32_t>> upper(n);
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t j = i + 1; j < std::min(n, i + 9); ++j)
+      if ((i * j) % 3 != 1) upper[i].push_back(j);
+  BlockMatrix A(upper);
+  std::srand(11);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    A.add(i, i, Mat3::Identity());
+    for (const std::uint32_t j : upper[i]) A.add(i, j, Mat3::Random());
+  }
+  Nodal x = Nodal::Zero(4, n), whole, shared = Nodal::Constant(4, n, 99.0);
+  x.topRows<3>().setRandom();
+  A.multiply(x, whole);
+  for (const auto& [begin, end] : std::vector<std::pair<std::uint32_t, std::uint32_t>>{
+           {13, 14}, {0, 13}, {14, 14}, {14, n}}) {
+    const BlockMatrix::Rows rows = A.rows(begin, end);
+    A.multiply(x, shared, rows);
+  }
+  CHECK(std::memcmp(whole.data(), shared.data(), sizeof(double) * 4 * n) == 0);
+
+  std::size_t blocks = 0;
+  for (const std::size_t k : A.blocks_by_row()) blocks += k;
+  CHECK(blocks == 2 * A.n_blocks() - n); // each off the diagonal serves two rows
 }
 
 TEST_CASE("A block outside the pattern is refused", "[unit][fem]")

@@ -1,0 +1,27 @@
+/// The product of a matrix that every rank holds, its rows shared out over the ranks.
+#pragma once
+
+#include "fem/block_matrix.h"
+
+#include <mpi.h>
+
+namespace mergel::fem {
+
+/// y = A x on every rank, each computing an even share of the blocks; no bit depends on the
+/// number of ranks. The matrix is borrowed and must outlive the object.
+class SharedProduct {
+public:
+  /// @param comm must outlive the object; MPI need not be up for MPI_COMM_NULL, one rank
+  SharedProduct(const BlockMatrix& A, MPI_Comm comm);
+
+  /// Collective; x the same on all ranks.
+  void multiply(const Nodal& x, Nodal& y) const;
+
+private:
+  const BlockMatrix& A_;
+  MPI_Comm comm_;
+  BlockMatrix::Rows mine_;
+  std::vector<int> count_, start_; // of doubles of y, by rank
+};
+
+} // namespace mergel::fem
