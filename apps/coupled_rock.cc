@@ -35,8 +35,9 @@ std::vector<double> interface_springs(const dem::Rock& rock,
   }
   for (std::size_t k = 0; k < wall.contacts.size(); ++k) {
     const double R = radius(wall.contacts[k].particle);
-    for (const int t : wall.near[k])
-      add(t, dem::Vec3::Ones(), dem::linear_stiffness(wall.material, R, 1.0 / R).k_n);
+    for (const auto& near : wall.listed[k].near)
+      add(near.triangle, dem::Vec3::Ones(),
+          dem::linear_stiffness(wall.material, R, 1.0 / R).k_n);
   }
   dem::ExactReduction all;
   for (dem::ForceSum& s : sums) all.add(s);
@@ -53,7 +54,7 @@ std::vector<double> interface_springs(const dem::Rock& rock,
 
 fem::FarField make_far_field(RockCase& c)
 {
-  fem::FarField far_field(c.far_field);
+  fem::FarField far_field(c.far_field, MPI_COMM_WORLD);
   // The corners of the prism are the interface nodes of the surface.
   int corners = 0;
   for (const Eigen::Vector3d& x : far_field.interface().x)
@@ -70,8 +71,8 @@ CoupledRock::CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarF
   rock.particles = sample.packing.particles;
   rock.material = c.material;
   rock.motion = {dem::Vec3(0.0, 0.0, -c.gravity), c.damping, c.free_rotation};
-  // A skin of 0.3 d00 S: some hundred steps between rebuilds under a pile at 1 m/s.
-  rock.list = dem::VerletList(c.material.contact.g_a, 0.3 * c.specimen.d_min);
+  // A skin of 0.45 d00 S: some hundred steps between rebuilds under a pile at 1 m/s.
+  rock.list = dem::VerletList(c.material.contact.g_a, 0.45 * c.specimen.d_min);
   rock.bonds = dem::make_bonds(rock.particles, rock.cell, sample.bonding.pairs);
   rock.mirrors.emplace_back();
   if (c.symmetry == dem::Symmetry::mirror)
@@ -120,7 +121,7 @@ coupling::InterfaceBalance CoupledRock::balance()
     far_field.interface_displacement(u);
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
   }
-  return coupling::interface_balance(exchange, rock.walls.front(), x);
+  return coupling::interface_balance(exchange, rock.walls.front(), x, rock.domain);
 }
 
 CoupledRock::Books CoupledRock::books() const

@@ -70,8 +70,8 @@ struct CoupledRock {
 
   static constexpr std::size_t steps_between_checks = 100;
   static constexpr std::size_t steps_between_far_field_checks = 5000;
-  static constexpr std::size_t steps_between_shares = 2000;
-  static constexpr double imbalance_allowed = 1.15; ///< slowest over fastest rank
+  static constexpr std::size_t steps_between_shares = 1000;
+  static constexpr double imbalance_allowed = 1.05; ///< slowest over fastest rank
 
 private:
   double spent_before_ = 0.0; ///< of rock.times at the last even_out() [s]

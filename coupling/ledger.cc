@@ -5,13 +5,19 @@
 namespace mergel::coupling {
 
 InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
-                                   const Nodal& x_fem)
+                                   const Nodal& x_fem, const dem::Domain& domain)
 {
+  dem::WallSums sums = dem::sum_pushes(wall);
+  dem::ExactReduction all;
+  all.add(sums.force);
+  all.add(sums.moment);
+  all.add(sums.power);
+  all.run(domain);
   const Nodal& f_fem = exchange.forces_up(wall);
   const Nodal& v_fem = exchange.far_field_velocities();
 
   // What the far field gets and what the grains feel sum to nothing.
-  dem::Vec3 force = wall.force_on_grains.value(), moment = wall.moment_on_grains.value();
+  dem::Vec3 force = sums.force.value(), moment = sums.moment.value();
   double power = 0.0, sum_f = 0.0, sum_m = 0.0, sum_p = 0.0;
   for (std::size_t k = 0; k < wall.f.size(); ++k) {
     const dem::Vec3 f = wall.f[k].value();
@@ -28,7 +34,7 @@ InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
     return whole > 0.0 ? part / whole : 0.0;
   };
   return {share(force.norm(), sum_f), share(moment.norm(), sum_m),
-          share(std::abs(power - wall.contact_power.value()), sum_p)};
+          share(std::abs(power - sums.power.value()), sum_p)};
 }
 
 } // namespace mergel::coupling

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "coupling/exchange.h"
+#include "dem/domain.h"
 
 namespace mergel::coupling {
 
@@ -19,8 +20,9 @@ struct InterfaceBalance {
 /// computed: call after the forces and before the wall moves.
 ///
 /// A lip follows its nodes without turning, so contacts on the lip leave the moment of
-/// force times lip height; everything else balances to round-off.
+/// force times lip height; everything else balances to round-off. Collective.
+/// @param domain of the rock whose wall it is
 InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
-                                   const Nodal& x_fem);
+                                   const Nodal& x_fem, const dem::Domain& domain);
 
 } // namespace mergel::coupling

@@ -141,7 +141,7 @@ void keep_own(Rock& rock)
   for (PileWall& w : rock.piles) std::erase_if(w.contacts.contacts(), foreign);
   for (Wall& w : rock.walls) {
     std::erase_if(w.contacts, foreign);
-    w.near.resize(w.contacts.size()); // made anew with the list
+    w.listed.resize(w.contacts.size()); // made anew with the list
     std::erase_if(w.bonds, foreign);
   }
   rock.list.invalidate();
@@ -216,7 +216,7 @@ Rock whole(Rock& rock, bool compare)
   for (std::size_t k = 0; k < rock.walls.size(); ++k) {
     Wall& w = all.walls[k];
     w.contacts = gathered_by(rock.domain, rock.walls[k].contacts, key_of);
-    w.near.assign(w.contacts.size(), {});
+    w.listed.assign(w.contacts.size(), {});
     w.bonds = gathered_by(rock.domain, rock.walls[k].bonds, by_particle);
   }
   for (EnergySum* s : {&all.losses.slip, &all.losses.plastic, &all.losses.residue,

@@ -40,12 +40,8 @@ void sum_wall_forces(Rock& rock)
   if (rock.domain.is_alone()) return;
   ExactReduction sums;
   for (PlaneWall& w : rock.planes) sums.add(w.force);
-  for (Wall& w : rock.walls) {
+  for (Wall& w : rock.walls)
     for (VectorSum& f : w.f) sums.add(f);
-    sums.add(w.contact_power);
-    sums.add(w.force_on_grains);
-    sums.add(w.moment_on_grains);
-  }
   for (PileWall& w : rock.piles) {
     sums.add(w.load.cone);
     sums.add(w.load.shaft);
@@ -63,7 +59,7 @@ bool lists_are_stale(Rock& rock)
   for (const PlaneWall& w : rock.planes)
     if (w.contacts.has_moved(w.plane.point, allowed)) return true;
   for (const Wall& w : rock.walls)
-    if (has_moved(w, allowed)) return true;
+    if (travel(w) > allowed) return true;
   for (const PileWall& w : rock.piles)
     if (w.contacts.has_moved(w.pile.tip(), allowed)) return true;
   return false;

@@ -98,12 +98,12 @@ bool is_reported(const Wall& wall, int t, const Closest& at, const Vec3& c)
   return true;
 }
 
-Vec3 closest_point_of_wall(const Wall& wall, const std::vector<int>& near, const Vec3& c,
-                           Anchor& anchor)
+Vec3 closest_point_of_wall(const Wall& wall, const std::vector<int>& triangles,
+                           const Vec3& c, Anchor& anchor)
 {
   double best = std::numeric_limits<double>::infinity();
   Vec3 point = Vec3::Zero();
-  for (const int t : near) {
+  for (const int t : triangles) {
     const Closest at = closest_on(wall, t, c);
     const double d2 = (c - at.point).squaredNorm();
     if (d2 >= best) continue;
@@ -233,46 +233,56 @@ double lead_over_valleys(const Wall& wall, int t, const Vec3& c, double distance
 
 } // namespace
 
-std::optional<PatchTouch> touch_patch(const Wall& wall, const std::vector<int>& near,
-                                      const Body& body, double reach)
+std::optional<PatchTouch> touch_patch(const Wall& wall, const ListedCandidate& candidate,
+                                      const Body& body, double wall_travel)
 {
   struct Feature {
     Anchor at;
+    Closest::On on;
     Vec3 point;
     double distance, overlap;
   };
   std::array<Feature, PatchTouch::most> features;
   std::size_t n_features = 0;
-  double total = 0.0, nearest = std::numeric_limits<double>::infinity();
+  double nearest = std::numeric_limits<double>::infinity();
   bool is_inside = true;
   Feature closest{};
-  for (const int t : near) {
-    // Distance to the plane bounds the distance to the triangle: most candidates end here.
+  const double reach = wall.material.g_a * body.S;
+  // Round-off of the distances is far below a millionth of a radius.
+  const double moved = (body.x - candidate.x).norm() + wall_travel + 1e-6 * body.R;
+  for (const auto& [t, clearance] : candidate.near) {
+    if (clearance > moved) continue; // most candidates end here
     const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(t)][0])];
     const double height = (body.x - corner).dot(wall.normals[uz(t)]);
-    if (height - body.R >= reach) continue;
+    if (height - body.R >= reach) continue; // a bound of the distance to the triangle
     const Closest at = closest_on(wall, t, body.x);
     const double d = (body.x - at.point).norm();
-    const double overlap = reach - (d - body.R);
+    const Feature feature{{t, at.weight}, at.on, at.point, d, reach - (d - body.R)};
     if (d < nearest) {
       nearest = d;
-      closest = {{t, at.weight}, at.point, d, overlap};
+      closest = feature;
       // The rim of a wall has no other side.
       const bool has_sides =
           at.on == Closest::On::face ||
           (at.on == Closest::On::edge && wall.topology.across[uz(t)][uz(at.which)] >= 0);
       is_inside = !has_sides || height > 0.0;
     }
-    if (overlap <= 0.0 || !is_reported(wall, t, at, body.x)) continue;
+    if (feature.overlap <= 0.0 || !is_reported(wall, t, at, body.x)) continue;
     if (n_features == features.size())
       throw NumericalError(
           "a particle touches more than " + std::to_string(features.size()) +
           " features of a wall: its triangles are too small for the grains");
-    double share = overlap;
-    if (at.on == Closest::On::face)
-      share = std::min(share, std::max(0.0, lead_over_valleys(wall, t, body.x, d)));
-    features[n_features++] = {{t, at.weight}, at.point, d, share};
-    total += share;
+    features[n_features++] = feature;
+  }
+  if (!is_inside) throw NumericalError("its centre is on the wrong side of a wall");
+
+  double total = 0.0;
+  for (std::size_t k = 0; k < n_features; ++k) {
+    Feature& f = features[k];
+    if (f.on == Closest::On::face && n_features > 1)
+      f.overlap = std::min(f.overlap, std::max(0.0, lead_over_valleys(wall, f.at.triangle,
+                                                                      body.x, f.distance)));
+    total += f.overlap;
   }
   // Straight over an edge, round-off may let no feature claim the centre: the closest does.
   if (total <= 0.0 && closest.overlap > 0.0) {
@@ -280,7 +290,6 @@ std::optional<PatchTouch> touch_patch(const Wall& wall, const std::vector<int>& 
     n_features = 1;
     total = closest.overlap;
   }
-  if (!is_inside) throw NumericalError("its centre is on the wrong side of a wall");
   if (n_features == 0) return std::nullopt;
 
   PatchTouch p;
@@ -301,7 +310,7 @@ std::optional<PatchTouch> touch_patch(const Wall& wall, const std::vector<int>& 
 void rebuild_wall(Wall& wall, const Particles& p, double skin)
 {
   std::vector<WallContact> found;
-  std::vector<std::vector<int>> near;
+  std::vector<ListedCandidate> listed;
   const WallTopology& topo = wall.topology;
 
   // Bounding spheres of the triangles, sorted along z, so that a particle sees only its own
@@ -325,7 +334,11 @@ void rebuild_wall(Wall& wall, const Particles& p, double skin)
     return std::pair{a.z, a.t} < std::pair{b.z, b.t};
   });
 
-  std::vector<std::pair<int, int>> hits; // patch, triangle
+  struct Hit {
+    int patch, triangle;
+    double distance2;
+  };
+  std::vector<Hit> hits;
   p.for_owned([&](Index i) {
     const Body& b = p.body[i];
     const double reach = b.R + (wall.material.g_a + skin) * b.S;
@@ -335,30 +348,34 @@ void rebuild_wall(Wall& wall, const Particles& p, double skin)
     for (; ball != balls.end() && ball->z <= b.x.z() + reach + r_max; ++ball) {
       const double far = reach + ball->r;
       if ((b.x - ball->c).squaredNorm() > far * far) continue;
-      if ((closest_on(wall, ball->t, b.x).point - b.x).squaredNorm() > reach * reach)
-        continue;
-      hits.emplace_back(topo.patch[uz(ball->t)], ball->t);
+      const double distance2 = (closest_on(wall, ball->t, b.x).point - b.x).squaredNorm();
+      if (distance2 > reach * reach) continue;
+      hits.push_back({topo.patch[uz(ball->t)], ball->t, distance2});
     }
-    std::sort(hits.begin(), hits.end());
-    for (const auto& [patch, t] : hits) {
-      if (found.empty() || found.back().particle != i || found.back().wall != patch) {
-        found.push_back({i, patch, Vec3::Zero(), 0.0});
-        near.emplace_back();
+    std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& c) {
+      return std::pair{a.patch, a.triangle} < std::pair{c.patch, c.triangle};
+    });
+    for (const Hit& hit : hits) {
+      if (found.empty() || found.back().particle != i || found.back().wall != hit.patch) {
+        found.push_back({i, hit.patch, Vec3::Zero(), 0.0});
+        listed.push_back({b.x, {}});
       }
-      near.back().push_back(t);
+      const double beyond = b.R + wall.material.g_a * b.S;
+      listed.back().near.push_back({hit.triangle, std::sqrt(hit.distance2) - beyond});
     }
   });
   wall.contacts = carry_history(std::move(found), wall.contacts);
-  wall.near = std::move(near);
+  wall.listed = std::move(listed);
   wall.x_listed = wall.x;
 }
 
-bool has_moved(const Wall& wall, double allowed)
+double travel(const Wall& wall)
 {
-  if (wall.x_listed.size() != wall.x.size()) return true;
+  if (wall.x_listed.size() != wall.x.size()) return std::numeric_limits<double>::infinity();
+  double most2 = 0.0;
   for (std::size_t k = 0; k < wall.x.size(); ++k)
-    if ((wall.x[k] - wall.x_listed[k]).squaredNorm() > allowed * allowed) return true;
-  return false;
+    most2 = std::max(most2, (wall.x[k] - wall.x_listed[k]).squaredNorm());
+  return std::sqrt(most2);
 }
 
 void bond_to_wall(Wall& wall, Particles& p, double limit)
@@ -438,26 +455,21 @@ void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p, W
                      PairLosses& losses)
 {
   for (VectorSum& f : wall.f) f.clear();
-  wall.contact_power.clear();
-  wall.force_on_grains.clear();
-  wall.moment_on_grains.clear();
-  const auto book = [&wall](const Vec3& f, const Vec3& point, const Vec3& v) {
-    wall.contact_power.add(-f.dot(v));
-    wall.force_on_grains.add(f);
-    wall.moment_on_grains.add(point.cross(f));
-  };
+  wall.pushes.clear();
+  const double moved = travel(wall);
 
   for (std::size_t c = 0; c < wall.contacts.size(); ++c) {
     WallContact& contact = wall.contacts[c];
     Body& body = p.body[contact.particle];
     const auto touch = naming_particle(p.id[contact.particle], [&] {
-      return touch_patch(wall, wall.near[c], body, wall.material.g_a * body.S);
+      return touch_patch(wall, wall.listed[c], body, moved);
     });
     if (!touch) {
-      const auto k = linear_stiffness(wall.material, body.R, 1.0 / body.R);
-      if (contact.f_s != Vec3::Zero()) // lost as the gap opens
+      if (contact.f_s != Vec3::Zero()) { // lost as the gap opens
+        const auto k = linear_stiffness(wall.material, body.R, 1.0 / body.R);
         losses.slip.add(0.5 * contact.f_s.squaredNorm() / k.k_s);
-      contact.f_s.setZero();
+        contact.f_s.setZero();
+      }
       contact.energy = 0.0;
       continue;
     }
@@ -465,7 +477,7 @@ void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p, W
                                     p.load[contact.particle], contact, losses);
     for (std::size_t s = 0; s < touch->n; ++s)
       push_nodes(wall, touch->shares[s].at, -touch->shares[s].weight * f);
-    book(f, touch->touch.point, touch->touch.v);
+    wall.pushes.push_back({f, touch->touch.point, touch->touch.v});
   }
 
   for (WallBond& b : wall.bonds) {
@@ -478,8 +490,19 @@ void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p, W
         },
         law);
     push_nodes(wall, b.anchor, -f);
-    book(f, x_a, v_a);
+    wall.pushes.push_back({f, x_a, v_a});
   }
+}
+
+WallSums sum_pushes(const Wall& wall)
+{
+  WallSums sums;
+  for (const WallPush& push : wall.pushes) {
+    sums.force.add(push.f);
+    sums.moment.add(push.point.cross(push.f));
+    sums.power.add(-push.f.dot(push.v));
+  }
+  return sums;
 }
 
 } // namespace mergel::dem

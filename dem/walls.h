@@ -39,6 +39,17 @@ struct Anchor {
   Vec3 weight = Vec3::Zero(); ///< barycentric coordinates, sum 1
 };
 
+/// A candidate when it was found. A triangle matters only once particle and wall have moved by
+/// its clearance together.
+struct ListedCandidate {
+  struct Near {
+    int triangle;
+    double clearance; ///< of the particle's surface, beyond g_a S [m]
+  };
+  Vec3 x = Vec3::Zero();  ///< of the particle [m]
+  std::vector<Near> near; ///< triangles of the patch within reach, ascending
+};
+
 /// A bond between a particle and a point of a wall: N and V only, bond length l = R.
 struct WallBond {
   Index particle = 0;
@@ -49,21 +60,23 @@ struct WallBond {
   double energy = 0.0;   ///< stored now [J]
 };
 
+/// What one contact or bond did to the wall in the last step.
+struct WallPush {
+  Vec3 f;        ///< on the particle [N]
+  Vec3 point, v; ///< of the wall where it acts [m], [m/s]
+};
+
 struct Wall {
   WallTopology topology;
   std::vector<Vec3> x, v;     ///< nodes [m], [m/s]; whoever moves the wall writes them
   std::vector<VectorSum> f;   ///< on the nodes [N], of the last step, of all ranks
   std::vector<Vec3> x_listed; ///< nodes when the candidates were found [m]
-  std::vector<WallContact> contacts;  ///< candidates, ascending in (particle, patch)
-  std::vector<std::vector<int>> near; ///< by contact: triangles of the patch within reach
-  std::vector<WallBond> bonds;        ///< ascending in particle
+  std::vector<WallContact> contacts;   ///< candidates, ascending in (particle, patch)
+  std::vector<ListedCandidate> listed; ///< by contact
+  std::vector<WallBond> bonds;         ///< ascending in particle
   LinearMaterial material;
-  /// Of the contact and bond forces in the last step, of all ranks: power at their points
-  /// of action [W], sum [N], moment about the origin at the points of action [N m].
-  MomentSum contact_power;
-  VectorSum force_on_grains;
-  ExactVector<MomentSum> moment_on_grains;
-  std::vector<Vec3> normals; ///< unit, by triangle; see update_normals()
+  std::vector<WallPush> pushes; ///< of this rank's contacts and bonds in the last step
+  std::vector<Vec3> normals;    ///< unit, by triangle; see update_normals()
 
   EnergySum energy() const; ///< stored by contacts and bonds of owned grains [J]
 };
@@ -84,13 +97,13 @@ struct PatchTouch {
   std::size_t n = 0;
 };
 
-/// The faces, edges and corners whose Voronoi region holds the centre share the contact by
+/// Features with a gap below g_a S count: the faces, edges and corners whose Voronoi region holds the centre share the contact by
 /// their overlap; in a valley a second face enters with the lead it has over the fold, so
 /// that the force is continuous.
-/// @param reach features with a gap below it count [m]
+/// @param wall_travel how far a node may have moved since the candidate was listed [m]
 /// @throws NumericalError when the centre is on the wrong side of the wall
-std::optional<PatchTouch> touch_patch(const Wall& wall, const std::vector<int>& near,
-                                      const Body& body, double reach);
+std::optional<PatchTouch> touch_patch(const Wall& wall, const ListedCandidate& candidate,
+                                      const Body& body, double wall_travel);
 
 /// Call after x changed and before touch_patch() or add_wall_forces().
 void update_normals(Wall& wall);
@@ -99,12 +112,21 @@ void update_normals(Wall& wall);
 /// neither a sphere nor a node has moved by half of skin S.
 void rebuild_wall(Wall& wall, const Particles& p, double skin);
 
-/// True when a node has moved by more than `allowed` [m] since the candidates were found.
-bool has_moved(const Wall& wall, double allowed);
+/// Largest motion of a node since the candidates were found [m]; infinite before that.
+double travel(const Wall& wall);
 
 /// Bond every particle whose gap to a patch is below limit S [m] to its closest point there:
 /// a particle in a corner is held by both sides. Once for a wall, else std::logic_error.
 void bond_to_wall(Wall& wall, Particles& p, double limit);
+
+/// What the wall's contacts and bonds of the last step sum to.
+struct WallSums {
+  VectorSum force; ///< on the grains [N]
+  ExactVector<MomentSum>
+      moment;      ///< on the grains, about the origin, at the points of action [N m]
+  MomentSum power; ///< on the wall at the points of action [W]
+};
+WallSums sum_pushes(const Wall& wall); ///< of this rank
 
 /// Add contacts and bonds to p.load and wall.f over the step dt [s] that ends now.
 /// @param yields bonds follow the bond law; otherwise they stay elastic

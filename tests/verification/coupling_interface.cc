@@ -90,7 +90,7 @@ TEST_CASE("interface force, moment and power balance to 1e-12", "[verification][
     coupling::Nodal x = x_0, u;
     far_field.interface_displacement(u);
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
-    const auto b = coupling::interface_balance(exchange, wall, x);
+    const auto b = coupling::interface_balance(exchange, wall, x, {});
     worst.force = std::max(worst.force, b.force);
     worst.moment = std::max(worst.moment, b.moment);
     worst.power = std::max(worst.power, b.power);
