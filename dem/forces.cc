@@ -216,6 +216,41 @@ void add_forces_of(const Law& law, const LinearMaterial& contact_law,
   }
 }
 
+bool is_zero(const Vec3& a)
+{
+  std::uint64_t bits[3];
+  std::memcpy(bits, a.data(), sizeof bits);
+  return ((bits[0] | bits[1] | bits[2]) << 1) == 0; // without the sign
+}
+
+/// Most candidates do not touch: only those that do, or did, go through the kernel. Their
+/// numbers are written to `which`; returns how many. Without a branch on what is as good as
+/// random.
+std::size_t choose_touching(double g_a, const PeriodicCell& cell, const Particles& p,
+                            const Contacts& contacts, std::size_t* which)
+{
+  const bool is_periodic = cell.is_periodic();
+  const Pair* const pairs = contacts.pairs.data();
+  const ContactShear* const shear = contacts.shear.data();
+  const Body* const body = p.body.data();
+  const std::size_t n = contacts.pairs.size();
+  std::size_t n_touching = 0;
+  for (std::size_t c = 0; c < n; ++c) {
+    __builtin_prefetch(&body[pairs[std::min(c + prefetch_ahead, n - 1)].j]);
+    const Pair& pair = pairs[c];
+    const Body &i = body[pair.i], &j = body[pair.j];
+    Vec3 r = j.x - i.x;
+    if (is_periodic && (pair.shift[0] | pair.shift[1] | pair.shift[2]) != 0)
+      r += cell.offset(pair.shift);
+    const double reach = i.R + j.R + g_a * (0.5 * (i.S + j.S));
+    // A NaN goes through, and is met.
+    const bool is_apart = r.squaredNorm() >= reach * reach * (1.0 + 1e-12);
+    which[n_touching] = c;
+    n_touching += !is_apart | !is_zero(shear[c].f_s);
+  }
+  return n_touching;
+}
+
 } // namespace
 
 void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, double dt,
@@ -234,33 +269,18 @@ void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell
   const bool is_periodic = cell.is_periodic();
   const std::size_t n = contacts.pairs.size();
 
-  // Most candidates do not touch: only those that do, or did, go through the kernel.
   static thread_local std::vector<std::size_t> touching;
-  touching.clear();
-  for (std::size_t c = 0; c < n; ++c) {
-    if (c + prefetch_ahead < n)
-      __builtin_prefetch(&p.body[contacts.pairs[c + prefetch_ahead].j]);
-    const Pair& pair = contacts.pairs[c];
-    const Body &i = p.body[pair.i], &j = p.body[pair.j];
-    Vec3 r = j.x - i.x;
-    if (is_periodic && (pair.shift[0] | pair.shift[1] | pair.shift[2]) != 0)
-      r += cell.offset(pair.shift);
-    const double reach = i.R + j.R + material.g_a * (0.5 * (i.S + j.S));
-    if (!(r.squaredNorm() >=
-          reach * reach * (1.0 + 1e-12))) // a NaN goes through, and is met
-      touching.push_back(c);
-    else if (contacts.shear[c].f_s != Vec3::Zero()) // opened in this step
-      touching.push_back(c);
-  }
+  touching.resize(n);
+  std::size_t* const which = touching.data();
+  const std::size_t n_touching = choose_touching(material.g_a, cell, p, contacts, which);
 
-  const std::size_t* which = touching.data();
-  for (std::size_t first = 0; first < touching.size(); first += n_lanes) {
+  for (std::size_t first = 0; first < n_touching; first += n_lanes) {
     for (std::size_t a = first + prefetch_ahead; a < first + prefetch_ahead + n_lanes; ++a)
-      if (a < touching.size()) {
+      if (a < n_touching) {
         prefetch(p, contacts.pairs[which[a]].j);
         __builtin_prefetch(&contacts.shear[which[a]], 1);
       }
-    const Batch q = batch_of(contacts.pairs, which, first, touching.size());
+    const Batch q = batch_of(contacts.pairs, which, first, n_touching);
     const End<Lanes> i = gather(p.body.data(), q.i);
     End<Lanes> j = gather(p.body.data(), q.j);
     if (is_periodic) shift_images(contacts.pairs, which, first, q, cell, j.x);
