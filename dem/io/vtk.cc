@@ -93,7 +93,7 @@ void write(const fs::path& file, vtkPolyData* data)
   writer->SetInputData(data);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
+  writer->SetCompressorTypeToLZ4();
   writer->SetHeaderTypeToUInt64();
   writer->WriteToOutputStringOn();
   if (writer->Write() != 1 || writer->GetErrorCode() != vtkErrorCode::NoError)
