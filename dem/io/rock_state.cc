@@ -348,11 +348,11 @@ void take_wall(const State& state, const std::string& name, std::size_t n, Wall&
       state.get_rows<std::int32_t>(name + "_bond_triangles", grain.size());
   const auto& history =
       state.get_rows<double>(name + "_bond_histories", grain.size(), wall_bond_columns);
+  for (const std::int32_t t : triangle)
+    if (t < 0 || static_cast<std::size_t>(t) >= wall.topology.triangles.size())
+      State::refuse(name + "_bond_triangles", "names a triangle that is not there");
   // A grain in a corner has a bond to each side, in the order of the patches.
   const auto patch_of = [&](std::size_t k) {
-    if (triangle[k] < 0 ||
-        static_cast<std::size_t>(triangle[k]) >= wall.topology.triangles.size())
-      State::refuse(name + "_bond_triangles", "names a triangle that is not there");
     return wall.topology.patch[static_cast<std::size_t>(triangle[k])];
   };
   wall.bonds.clear();

@@ -284,11 +284,12 @@ State read_state(const fs::path& path, const std::string& kind, int version)
   std::string bytes = unsealed(path, seal);
   State state;
   try {
-    // From memory: what is read is what was summed.
+    // From memory: what is read is what was summed. HDF5 wants a name that no file has.
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "choose an access");
     H5Pset_fapl_core(access, 1 << 20, false);
     H5Pset_file_image(access, bytes.data(), bytes.size());
-    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "open it");
+    const Handle file(H5Fopen((path / "in memory").c_str(), H5F_ACC_RDONLY, access),
+                      H5Fclose, "open it");
     bytes = {};
     if (const std::string format = read_format(file); format != "mergel " + kind)
       throw InputError("is a " + format + ", no mergel " + kind);
