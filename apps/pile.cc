@@ -128,9 +128,11 @@ public:
   }
 
   void put(dem::State& state) const;
-  /// Go on as put() told. @param has_new_length the final depth or what is recorded when may
-  /// differ from that run's
-  void take(const dem::State& state, bool has_new_length);
+  /// Go on as put() told.
+  void take(const dem::State& state);
+  /// The next record, or frame, by a spacing that is not that of the run so far.
+  void space_records_anew();
+  void space_frames_anew();
 
   /// @param after_step called between two steps, for checkpoints
   void run(const std::function<void()>& after_step)
@@ -302,7 +304,7 @@ void Installation::put(dem::State& state) const
   state.add_common("pile_counts", std::move(counts));
 }
 
-void Installation::take(const dem::State& state, bool has_new_length)
+void Installation::take(const dem::State& state)
 {
   const auto all = numbers_of(*this);
   const auto& numbers = state.get_rows<double>("pile_numbers", all.size());
@@ -310,8 +312,15 @@ void Installation::take(const dem::State& state, bool has_new_length)
   const auto all_counts = counts_of(*this);
   const auto& counts = state.get_rows<std::uint64_t>("pile_counts", all_counts.size());
   for (std::size_t k = 0; k < all_counts.size(); ++k) *all_counts[k] = counts[k];
-  if (!has_new_length) return;
+}
+
+void Installation::space_records_anew()
+{
   next_record_ = case_.record_every * (std::floor(travelled() / case_.record_every) + 1.0);
+}
+
+void Installation::space_frames_anew()
+{
   n_frames_ = 1;
   while (n_frames_ < static_cast<std::size_t>(case_.frames) && next_frame() <= travelled())
     ++n_frames_;
@@ -504,11 +513,14 @@ WorkBefore take_work(const dem::Checkpoint& checkpoint)
   return {checkpoint.label.step, checkpoint.state.get_rows<double>("seconds", 1).front()};
 }
 
-bool changes_length(const std::vector<CaseFile::Change>& changed)
+void go_on(Installation& run, const dem::State& state,
+           const std::vector<CaseFile::Change>& changed)
 {
-  return std::any_of(changed.begin(), changed.end(), [](const CaseFile::Change& c) {
-    return c.key == "final depth" || c.key == "record every" || c.key == "frames";
-  });
+  run.take(state);
+  for (const CaseFile::Change& c : changed) {
+    if (c.key == "record every") run.space_records_anew();
+    if (c.key == "final depth" || c.key == "frames") run.space_frames_anew();
+  }
 }
 
 } // namespace
@@ -576,7 +588,7 @@ int run_pile(const JobOptions& options)
                  .end = start + options.walltime,
                  .restarted_from = restart ? restart->file : std::filesystem::path{}});
   bool is_driving = restart && Installation::is_in(restart->checkpoint.state);
-  if (is_driving) run.take(restart->checkpoint.state, changes_length(changed));
+  if (is_driving) go_on(run, restart->checkpoint.state, changed);
   restart.reset(); // its arrays are no longer needed
   const auto after_step = [&] {
     keeper.after_step(

@@ -56,6 +56,14 @@ std::vector<dem::SeriesEntry> entries(const Kind& kind, const std::vector<double
   return found;
 }
 
+void copy_whole(const std::filesystem::path& from, const std::filesystem::path& to)
+{
+  dem::replace_file(to, [&](const std::filesystem::path& path) {
+    std::filesystem::copy_file(from, path,
+                               std::filesystem::copy_options::overwrite_existing);
+  });
+}
+
 dem::HistoryMark mark_in(const dem::State& state)
 {
   const auto& mark = state.get_rows<std::uint64_t>("output_history", 2);
@@ -88,14 +96,13 @@ PileOutput::PileOutput(const std::filesystem::path& folder, const PileCase& c,
                               mark_in(state)),
                  state.get<double>("output_frames"))
 {
-  if (!std::filesystem::equivalent(folder, earlier))
+  if (!std::filesystem::equivalent(folder, earlier)) {
+    if (std::filesystem::exists(earlier / "sample.h5"))
+      copy_whole(earlier / "sample.h5", folder / "sample.h5");
     for (const Kind& kind : kinds)
       for (std::size_t k = 0; k < frame_times_.size(); ++k)
-        dem::replace_file(
-            fields_ / frame_name(kind, k), [&](const std::filesystem::path& path) {
-              std::filesystem::copy_file(earlier / "fields" / frame_name(kind, k), path,
-                                         std::filesystem::copy_options::overwrite_existing);
-            });
+        copy_whole(earlier / "fields" / frame_name(kind, k), fields_ / frame_name(kind, k));
+  }
   for (dem::Series* series : {&particles_, &bonds_, &pile_, &far_field_}) series->write();
 }
 
