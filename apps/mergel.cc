@@ -143,7 +143,7 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-  ignore_file_size_signal();
+  ignore_signals();
   // Words to the user come from the first rank alone.
   if (launched_rank() > 0) std::cout.setstate(std::ios::badbit);
   return run_guarded([&] { return run(argc, argv); });

@@ -51,8 +51,9 @@ void Signals::checkpointed()
   has_usr1 = 0;
 }
 
-void ignore_file_size_signal()
+void ignore_signals()
 {
+  handle(SIGUSR1, SIG_IGN);
   handle(SIGXFSZ, SIG_IGN);
 }
 
