@@ -44,6 +44,9 @@ void write_vtu(const ElasticSolid& solid, const Nodal& u, const Nodal& v,
   out.add_data_vector(solid.dofs(), velocity, std::vector<std::string>(3, "velocity"),
                       vector);
   out.add_data_vector(stress_dofs, stress, std::vector<std::string>(9, "stress"), tensor);
+  dealii::DataOutBase::VtkFlags flags;
+  flags.print_date_and_time = false; // a repeated run gives the same file
+  out.set_flags(flags);
   out.build_patches();
 
   std::ostringstream
