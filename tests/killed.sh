@@ -27,17 +27,24 @@ start=$(date +%s%N)
 "$mergel" pile "$case_file" "${tiny[@]}" --output whole >log || fail "the whole run: $(tail -3 log)"
 run_ms=$((($(date +%s%N) - start) / 1000000))
 
-# Pieces of the run between two kills, so that all of them fall into it.
+newest() { compgen -G "killed/checkpoint_*.h5" | sort | tail -1 || true; }
 n_killed=0 n_in_writing=0
 while [ "$n_killed" -lt "$kills" ]; do
   # By turns few checkpoints, and one every other step: then most kills fall into the writing.
   every=$((n_killed % 2 ? 2 : 40))
-  pause=$((300 + RANDOM % (2 * run_ms / kills + 300)))
+  # Pieces of the run between two kills, so that all of them fall into it.
+  pause=$((RANDOM % (2 * run_ms / kills + 200)))
   launch=("$mergel")
   [ $((n_killed % 3)) -eq 2 ] && launch=(mpirun --oversubscribe -n 2 "$mergel")
   setsid "${launch[@]}" pile "$case_file" "${tiny[@]}" --set "Output/checkpoint every=$every steps" \
     --output killed --restart killed >log 2>&1 &
   group=$!
+  # Some die while they start, the others once they go on: after another checkpoint.
+  before=$(newest)
+  [ $((n_killed % 5)) -eq 4 ] || for _ in $(seq 1000); do
+    if [ "$(newest)" != "$before" ] || ! kill -0 "$group" 2>/dev/null; then break; fi
+    sleep 0.02
+  done
   code=0
   timeout $((pause / 1000)).$(printf %03d $((pause % 1000))) tail --pid=$group -f /dev/null || code=$?
   if [ "$code" -ne 124 ]; then # it was done before it could be killed
@@ -70,4 +77,5 @@ done
 diff <(ls -A whole/fields) <(ls -A killed/fields) || fail "other fields"
 diff <(grep -v wall-clock whole/summary.json) <(grep -v wall-clock killed/summary.json) ||
   fail "the summary differs"
+[ "$kills" -lt 20 ] || [ "$n_in_writing" -gt 0 ] || fail "no kill fell into the writing of a checkpoint"
 echo "killed $n_killed times, $n_in_writing of them while a checkpoint was written: the same bits"
