@@ -175,8 +175,8 @@ public:
   /// What write_resolved() writes.
   std::string resolved_text() const;
 
-  /// A key whose value differs from that in an earlier resolved case; "" for one that is only
-  /// in one of them.
+  /// A key whose value differs from that in an earlier resolved case; "" for one that is
+  /// only in one of them.
   struct Change {
     std::string section, key, was, is;
   };

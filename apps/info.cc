@@ -1,4 +1,5 @@
-/// mergel info: what a sample, a checkpoint or a results folder is, and whether it is whole.
+/// mergel info: what a sample, a checkpoint or a results folder is, and whether it is
+/// whole.
 #include "apps/case_scan.h"
 #include "apps/command_line.h"
 #include "apps/jobs.h"

@@ -1,5 +1,5 @@
-/// Keeps a run from being lost: checkpoints when they are due, and an orderly end when the run
-/// is told to stop.
+/// Keeps a run from being lost: checkpoints when they are due, and an orderly end when the
+/// run is told to stop.
 #pragma once
 
 #include "apps/signals.h"
@@ -48,12 +48,12 @@ public:
     const char* stage; ///< in words
   };
 
-  /// Call between steps, on all ranks. Writes a checkpoint when one is due: by time or steps,
-  /// when a rank got SIGUSR1 or SIGTERM, before the walltime is over. No bit of the run
-  /// depends on it.
+  /// Call between steps, on all ranks. Writes a checkpoint when one is due: by time or
+  /// steps, when a rank got SIGUSR1 or SIGTERM, before the walltime is over. No bit of the
+  /// run depends on it.
   /// @param put adds the state of the run, each rank its part; collective
-  /// @throws Stopped after SIGTERM and before the end of the walltime; CollectiveFailure when
-  ///   the checkpoint cannot be written, naming the last good one
+  /// @throws Stopped after SIGTERM and before the end of the walltime; CollectiveFailure
+  ///   when the checkpoint cannot be written, naming the last good one
   void after_step(const dem::Domain& domain, const Position& at,
                   const std::function<void(dem::State&)>& put);
 

@@ -452,8 +452,8 @@ const std::vector<std::string> free_keys{"Pile/final depth", "Output/record ever
                                          "Output/frames", "Output/checkpoint every",
                                          "Specimen/file"};
 
-/// The velocity near the end depends on where the end is: a run that slows down, or would have
-/// by now, cannot get another end.
+/// The velocity near the end depends on where the end is: a run that slows down, or would
+/// have by now, cannot get another end.
 void check_new_end(const CaseFile& file, const PileCase& c, const Restart& restart)
 {
   if (!Installation::is_in(restart.checkpoint.state)) return;

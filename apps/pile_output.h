@@ -28,7 +28,8 @@ struct PileRecord {
 class PileOutput {
 public:
   PileOutput(const std::filesystem::path& folder, const PileCase& c);
-  /// Go on with what `earlier`, which may be the same folder, held when put() wrote `state`.
+  /// Go on with what `earlier`, which may be the same folder, held when put() wrote
+  /// `state`.
   /// @throws InputError when it no longer does
   PileOutput(const std::filesystem::path& folder, const PileCase& c,
              const std::filesystem::path& earlier, const dem::State& state);

@@ -43,8 +43,8 @@ void on_first_rank(Body&& body)
   throw InputError(message);
 }
 
-/// Run `body` on every rank. Bad input that one finds, say a file that only it cannot see, is
-/// thrown on all; any other exception goes on where it is.
+/// Run `body` on every rank. Bad input that one finds, say a file that only it cannot see,
+/// is thrown on all; any other exception goes on where it is.
 template <class Body>
 void on_every_rank(Body&& body)
 {

@@ -20,8 +20,8 @@ struct Restart {
 
 /// The checkpoint at `place`: the file, or the newest good one of a folder. Nothing when
 /// `place` is empty, or a folder without checkpoints: then the run begins.
-/// @throws InputError when what is there cannot be read, naming an older good one beside it;
-///   when it is of another job
+/// @throws InputError when what is there cannot be read, naming an older good one beside
+///   it; when it is of another job
 std::optional<Restart> find_restart(const std::filesystem::path& place,
                                     const std::string& job);
 
@@ -33,17 +33,18 @@ std::filesystem::path folder_to_restart(const std::filesystem::path& place);
 void read_case(CaseFile& file, const JobOptions& options,
                const std::optional<Restart>& restart);
 
-/// Compare the case with that of the checkpoint. Returns the changed ones of the keys `free`,
-/// "Section/key".
+/// Compare the case with that of the checkpoint. Returns the changed ones of the keys
+/// `free`, "Section/key".
 /// @throws InputError naming another key that has changed: "was X, the case asks for Y"
 std::vector<CaseFile::Change> check_case(const CaseFile& file, const Restart& restart,
                                          const std::vector<std::string>& free);
 
-/// For a job that is done so soon that it begins again: the folder of an earlier run in which
-/// it does so may be used.
+/// For a job that is done so soon that it begins again: the folder of an earlier run in
+/// which it does so may be used.
 OutputFolder folder_to_begin_in(const JobOptions& options);
 
-/// What the user should know: where the run goes on, what could not be read, what has changed.
+/// What the user should know: where the run goes on, what could not be read, what has
+/// changed.
 std::string report(const Restart& restart, const std::vector<CaseFile::Change>& changed);
 
 } // namespace mergel::apps

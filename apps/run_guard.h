@@ -69,9 +69,9 @@ inline int launched_rank()
 /// code of that.
 ///
 /// Call it while MPI is up if the body uses MPI: an exception must not unwind past
-/// MPI_Finalize. Bad input is found alike on all ranks, and so is a CollectiveFailure: rank 0
-/// speaks and all return. Any other exception on one of several ranks would leave the others waiting: it names its
-/// rank and calls MPI_Abort.
+/// MPI_Finalize. Bad input is found alike on all ranks, and so is a CollectiveFailure: rank
+/// 0 speaks and all return. Any other exception on one of several ranks would leave the
+/// others waiting: it names its rank and calls MPI_Abort.
 template <class Body>
 int run_guarded(const Body& body)
 {

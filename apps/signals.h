@@ -16,8 +16,8 @@ public:
   void checkpointed();
 };
 
-/// For the start of a program: a write beyond a file-size limit fails instead of ending it, and
-/// SIGUSR1 does nothing until there is something to write.
+/// For the start of a program: a write beyond a file-size limit fails instead of ending it,
+/// and SIGUSR1 does nothing until there is something to write.
 void ignore_signals();
 
 } // namespace mergel::apps

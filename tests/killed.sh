@@ -50,7 +50,7 @@ while [ "$n_killed" -lt "$kills" ]; do
   if [ "$code" -ne 124 ]; then # it was done before it could be killed
     wait "$group" || fail "it ended by itself: $(tail -3 log)"
     [ "$n_killed" -gt 0 ] || fail "the run is too short to be killed"
-    rm -rf killed killed_before
+    rm -rf killed had_one
     echo "done after $n_killed kills: begun again"
     continue
   fi

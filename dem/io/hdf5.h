@@ -38,8 +38,8 @@ private:
   herr_t (*close_)(hid_t);
 };
 
-/// HDF5 prints its own stack of errors unless told not to, and at exit a complaint about each
-/// damaged file that it could not close. Every handle here closes itself.
+/// HDF5 prints its own stack of errors unless told not to, and at exit a complaint about
+/// each damaged file that it could not close. Every handle here closes itself.
 class Quiet {
 public:
   Quiet()

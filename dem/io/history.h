@@ -9,7 +9,8 @@
 
 namespace mergel::dem {
 
-/// How far a history had come: so many bytes, and the sum of these (fnv_1a() of dem/io/seal.h).
+/// How far a history had come: so many bytes, and the sum of these (fnv_1a() of
+/// dem/io/seal.h).
 struct HistoryMark {
   std::uint64_t bytes = 0, sum = 0;
 };

@@ -47,7 +47,7 @@ std::vector<std::size_t> ascending(const std::string& name, std::size_t n, Key&&
   return order;
 }
 
-// --- grains -------------------------------------------------------------------------------
+// --- grains ------------------------------------------------------------------------------
 
 constexpr std::size_t body_columns = 12, load_columns = 6;
 
@@ -101,7 +101,7 @@ Particles take_grains(const State& state)
   return p;
 }
 
-// --- pairs --------------------------------------------------------------------------------
+// --- pairs -------------------------------------------------------------------------------
 
 /// Pairs as two arrays; the periodic shift of most rocks is all zero.
 class PairColumns {
@@ -230,7 +230,7 @@ std::vector<Breakage> take_breakages(const State& state, std::size_t n)
   return breakages;
 }
 
-// --- walls --------------------------------------------------------------------------------
+// --- walls -------------------------------------------------------------------------------
 
 std::string numbered(const char* what, std::size_t k)
 {

@@ -94,15 +94,16 @@ private:
   std::map<std::string, StateArray> arrays_;
 };
 
-/// Replace `file` whole (dem/io/atomic_file.h); collective, each rank with arrays of the same
-/// names. Sealed by a sum over all its bytes (dem/io/seal.h).
-/// @throws CollectiveFailure naming the file and the system's reason; an earlier `file` stands
+/// Replace `file` whole (dem/io/atomic_file.h); collective, each rank with arrays of the
+/// same names. Sealed by a sum over all its bytes (dem/io/seal.h).
+/// @throws CollectiveFailure naming the file and the system's reason; an earlier `file`
+///   stands
 void write_state(const std::filesystem::path& file, const std::string& kind, int version,
                  const State& mine, const Domain& domain);
 
 /// @param kind what the file must be, for example "checkpoint"
-/// @throws InputError, without the file's name in front, when it is missing, of another kind,
-///   damaged, truncated, of another version, or holds a number that is not finite
+/// @throws InputError, without the file's name in front, when it is missing, of another
+///   kind, damaged, truncated, of another version, or holds a number that is not finite
 State read_state(const std::filesystem::path& file, const std::string& kind, int version);
 
 } // namespace mergel::dem

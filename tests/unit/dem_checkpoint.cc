@@ -25,8 +25,8 @@ struct Folder {
   ~Folder() { fs::remove_all(path); }
 };
 
-/// A bonded row of grains at a plane, a triangulated wall, a mirror and a pile that push it,
-/// on its way: every kind of history is there, and none is zero.
+/// A bonded row of grains at a plane, a triangulated wall, a mirror and a pile that push
+/// it, on its way: every kind of history is there, and none is zero.
 Rock rock_with_everything()
 {
   Rock rock;
