@@ -1,4 +1,5 @@
 /// mergel bench: what a step costs on this machine, part by part; tests/bench says of what.
+#include "apps/bench_checkpoint.h"
 #include "apps/command_line.h"
 #include "apps/jobs.h"
 #include "apps/ranks.h"
@@ -28,6 +29,7 @@ struct BenchOptions {
   long particles = 50000, steps = 1000, repeat = 5; // signed: a minus must not wrap around
   std::filesystem::path output;                     ///< may be empty
   std::filesystem::path block;                      ///< may be empty
+  std::filesystem::path checkpoint;                 ///< may be empty
 };
 
 const std::map<std::string, std::vector<Workload>> workload_names{
@@ -56,6 +58,8 @@ void declare(CLI::App& app, BenchOptions& o)
   app.add_option(
       "--write-block", o.block,
       "text file that gets the spheres and bonds of W1, for another code; no run");
+  app.add_option("--checkpoint", o.checkpoint,
+                 "file that gets a checkpoint of the first workload, timed; no run");
 }
 
 WorkloadSpec spec_of(const BenchOptions& o, Workload w)
@@ -374,6 +378,10 @@ int run_bench(const BenchOptions& o)
     on_first_rank(
         [&] { write_block(o.block, make_workload(spec_of(o, Workload::bonded_block))); });
     std::cout << "block: " << o.block.string() << '\n';
+    return 0;
+  }
+  if (!o.checkpoint.empty()) {
+    measure_checkpoint(spec_of(o, o.workloads.front()), o.checkpoint);
     return 0;
   }
   if (!o.output.empty()) earlier_lines(o.output, csv_line(o.spec, {}, 0.0).header);

@@ -3,6 +3,7 @@
 #include "apps/material_keys.h"
 #include "apps/output_folder.h"
 #include "apps/ranks.h"
+#include "apps/restart.h"
 #include "dem/driven_pair.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"
@@ -281,11 +282,11 @@ void drive_bond(const JobOptions& options)
   CaseFile file;
   BondCase c;
   declare(file, c);
-  file.read(options.case_file, options.set);
+  read_case(file, options, std::nullopt);
   const auto path = corners(file, c);
-  const OutputFolder folder(options.output,
-                            options.overwrite ? Earlier::overwrite : Earlier::keep);
-  std::vector<std::filesystem::path> inputs{options.case_file};
+  const OutputFolder folder = folder_to_begin_in(options);
+  std::vector<std::filesystem::path> inputs;
+  if (options.restart.empty()) inputs.push_back(options.case_file);
   if (!c.path.empty()) inputs.push_back(c.path);
   folder.commit(inputs);
   file.write_resolved(folder.path() / "resolved.prm");

@@ -424,15 +424,28 @@ void CaseFile::path(const std::string& key, std::filesystem::path& target,
 void CaseFile::read(const std::filesystem::path& path,
                     const std::vector<std::string>& overrides)
 {
+  read(read_case_text(path), path.string(), std::filesystem::absolute(path).parent_path(),
+       overrides);
+}
+
+void CaseFile::read_text(const std::string& text, const std::string& name,
+                         const std::vector<std::string>& overrides)
+{
+  read(text, name, std::filesystem::current_path(), overrides);
+}
+
+void CaseFile::read(const std::string& text, const std::string& name,
+                    const std::filesystem::path& case_folder,
+                    const std::vector<std::string>& overrides)
+{
   impl_->is_read = false;
-  impl_->file_name = path.string();
+  impl_->file_name = name;
   for (Key& key : impl_->keys) {
     key.line = 0;
     key.is_override = false;
     key.is_active = true;
   }
 
-  const std::string text = read_case_text(path);
   const CaseScan scan = scan_case(text, impl_->file_name);
   impl_->section_lines = scan.sections;
   impl_->match_file(scan);
@@ -466,7 +479,6 @@ void CaseFile::read(const std::filesystem::path& path,
     impl_->match_override(scan_override(argument));
 
   const auto working_folder = std::filesystem::current_path();
-  const auto case_folder = std::filesystem::absolute(path).parent_path();
   for (Key& key : impl_->keys) {
     const bool is_given = key.is_override || key.line > 0;
     key.is_active = impl_->exists(key);
@@ -515,6 +527,11 @@ bool CaseFile::is_given(const std::string& section, const std::string& key) cons
 
 void CaseFile::write_resolved(const std::filesystem::path& path) const
 {
+  dem::replace_file(path, resolved_text());
+}
+
+std::string CaseFile::resolved_text() const
+{
   if (!impl_->is_read) throw std::logic_error("CaseFile: no case has been read");
   std::string text =
       "# The complete case of a run, defaults included. mergel reads it back to "
@@ -528,7 +545,27 @@ void CaseFile::write_resolved(const std::filesystem::path& path) const
                 "\n";
     text += "end\n";
   }
-  dem::replace_file(path, text);
+  return text;
+}
+
+std::vector<CaseFile::Change>
+CaseFile::changes_since(const std::string& earlier_resolved_text) const
+{
+  if (!impl_->is_read) throw std::logic_error("CaseFile: no case has been read");
+  std::vector<CaseEntry> earlier = scan_case(earlier_resolved_text, "earlier case").entries;
+  std::vector<Change> changes;
+  for (const Key& key : impl_->keys) {
+    if (!key.is_active) continue;
+    const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const auto& e) {
+      return e.section == key.section && e.key == key.name;
+    });
+    const std::string was = same == earlier.end() ? "" : same->value;
+    if (was != key.resolved || same == earlier.end())
+      changes.push_back({key.section, key.name, was, key.resolved});
+    if (same != earlier.end()) earlier.erase(same);
+  }
+  for (const CaseEntry& e : earlier) changes.push_back({e.section, e.key, e.value, ""});
+  return changes;
 }
 
 void CaseFile::help(std::ostream& out) const

@@ -148,6 +148,11 @@ public:
   void read(const std::filesystem::path& path,
             const std::vector<std::string>& overrides = {});
 
+  /// The same from the text of a resolved case instead of a file.
+  /// @param name what messages call it
+  void read_text(const std::string& text, const std::string& name,
+                 const std::vector<std::string>& overrides = {});
+
   /// Where the value of a key comes from, for checks that span several keys:
   /// "pile.prm:14: Pile/diameter", "--set Pile/diameter", or, when the default stands,
   /// "pile.prm: Pile/diameter". @pre read() was called
@@ -167,6 +172,16 @@ public:
   /// @pre read() was called; @throws NumericalError if it cannot be written
   void write_resolved(const std::filesystem::path& path) const;
 
+  /// What write_resolved() writes.
+  std::string resolved_text() const;
+
+  /// A key whose value differs from that in an earlier resolved case; "" for one that is
+  /// only in one of them.
+  struct Change {
+    std::string section, key, was, is;
+  };
+  std::vector<Change> changes_since(const std::string& earlier_resolved_text) const;
+
   /// Every key by section: name, unit, default, what is allowed, one sentence. 92 columns.
   void help(std::ostream& out) const;
 
@@ -180,6 +195,9 @@ private:
   void add_choice(const std::string& key, const std::vector<std::string>& names,
                   std::size_t present, std::function<void(std::size_t)> set,
                   const std::string& sentence, Default standard);
+
+  void read(const std::string& text, const std::string& name,
+            const std::filesystem::path& folder, const std::vector<std::string>& overrides);
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

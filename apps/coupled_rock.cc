@@ -63,25 +63,30 @@ fem::FarField make_far_field(RockCase& c)
   return far_field;
 }
 
-CoupledRock::CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarField field,
+CoupledRock::CoupledRock(const RockCase& c, fem::FarField field,
                          coupling::Interface interface)
     : far_field(std::move(field)), exchange(std::move(interface.transfer), far_field),
       x_interface(far_field.interface().x), model(c.model), safety(c.safety)
 {
-  rock.particles = sample.packing.particles;
   rock.material = c.material;
   rock.motion = {dem::Vec3(0.0, 0.0, -c.gravity), c.damping, c.free_rotation};
   // A skin of 0.45 d00 S: some hundred steps between rebuilds under a pile at 1 m/s.
   rock.list = dem::VerletList(c.material.contact.g_a, 0.45 * c.specimen.d_min);
-  rock.bonds = dem::make_bonds(rock.particles, rock.cell, sample.bonding.pairs);
   rock.mirrors.emplace_back();
+  rock.walls.push_back(std::move(interface.wall));
+  rock.wall_bonds_yield = c.interface_bond == dem::InterfaceBond::breakable;
+}
+
+CoupledRock::CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarField field,
+                         coupling::Interface interface)
+    : CoupledRock(c, std::move(field), std::move(interface))
+{
+  rock.particles = sample.packing.particles;
+  rock.bonds = dem::make_bonds(rock.particles, rock.cell, sample.bonding.pairs);
   if (c.symmetry == dem::Symmetry::mirror)
     dem::bond_to_mirror(rock.mirrors.front(), rock.particles, sample.bonding.limit);
-  rock.walls.push_back(std::move(interface.wall));
   if (c.interface_bond != dem::InterfaceBond::frictional)
     dem::bond_to_wall(rock.walls.front(), rock.particles, sample.bonding.limit);
-  rock.wall_bonds_yield = c.interface_bond == dem::InterfaceBond::breakable;
-
   dem::share_out(rock, MPI_COMM_WORLD);
   dem::add_forces(rock, 0.0); // nothing has moved yet: histories stay
   dt = dt_before = dem::stable_time_step(rock, safety);
@@ -141,7 +146,8 @@ double CoupledRock::unexplained(const Books& now, const Books& start)
 namespace {
 
 /// Relax with the walls as `model` says until the unbalanced ratio is below `ratio`.
-void relax(CoupledRock& coupled, const char* stage, double ratio, std::size_t most_steps)
+void relax(CoupledRock& coupled, const char* stage, double ratio, std::size_t most_steps,
+           const std::function<void()>& after_step)
 {
   Progress progress(stage);
   const auto shown = [](double r) {
@@ -150,9 +156,14 @@ void relax(CoupledRock& coupled, const char* stage, double ratio, std::size_t mo
     return std::string(text);
   };
   double now = coupled.unbalanced(), first = now;
-  for (std::size_t n = 1; n <= most_steps; ++n) {
+  std::size_t& n = coupled.settling.n;
+  while (n < most_steps) {
     coupled.step([](double) {});
-    if (n % 50 != 0) continue;
+    ++n;
+    if (n % 50 != 0) {
+      after_step();
+      continue;
+    }
     dem::check_overlaps(coupled.rock);
     now = coupled.unbalanced();
     first = std::max(first, now);
@@ -166,6 +177,7 @@ void relax(CoupledRock& coupled, const char* stage, double ratio, std::size_t mo
     }
     const double part = std::log(first / now) / std::log(first / ratio);
     progress.update(std::clamp(part, 0.0, 1.0), [&] { return shown(now); });
+    after_step();
   }
   throw NumericalError(std::string(stage) + ": no equilibrium in " +
                        std::to_string(most_steps) + " steps: " + shown(now) + ", wanted " +
@@ -173,38 +185,50 @@ void relax(CoupledRock& coupled, const char* stage, double ratio, std::size_t mo
                        "; raise `Motion/damping` or `Motion/balance`");
 }
 
+/// Put the far field in static equilibrium under the rock's forces, and the rock with it.
+void settle_far_field(CoupledRock& coupled)
+{
+  dem::Wall& wall = coupled.rock.walls.front();
+  const coupling::Nodal x = wall.x;
+  const coupling::Nodal u = coupled.exchange.settle(wall);
+  // As a motion over one step, so that every history sees it; at rest before and after.
+  const double dt = coupled.dt;
+  dem::Particles& p = coupled.rock.particles;
+  p.for_owned([&](dem::Index i) {
+    dem::Body& b = p.body[i];
+    const dem::Vec3 moved = coupling::interpolate_inside(x, u, b.x);
+    b.x += moved;
+    b.v = moved / dt;
+    b.omega.setZero();
+  });
+  coupled.rock.list.invalidate();
+  for (std::size_t k = 0; k < u.size(); ++k) wall.v[k] = u[k] / dt;
+  dem::add_forces(coupled.rock, dt);
+  p.for_owned([&](dem::Index i) { p.body[i].v.setZero(); });
+  for (dem::Vec3& v : wall.v) v.setZero();
+}
+
 } // namespace
 
-void equilibrate(CoupledRock& coupled, double ratio, std::size_t most_steps)
+void equilibrate(CoupledRock& coupled, double ratio, std::size_t most_steps,
+                 const std::function<void()>& after_step)
 {
+  using Stage = Settling::Stage;
   const FarFieldModel model = coupled.model;
-  coupled.model = FarFieldModel::rigid;
-  relax(coupled, "settling in held walls", ratio, most_steps);
-  coupled.model = model;
-
-  if (model == FarFieldModel::elastic) {
-    dem::Wall& wall = coupled.rock.walls.front();
-    const coupling::Nodal x = wall.x;
-    const coupling::Nodal u = coupled.exchange.settle(wall);
-    // As a motion over one step, so that every history sees it; at rest before and after.
-    const double dt = coupled.dt;
-    dem::Particles& p = coupled.rock.particles;
-    p.for_owned([&](dem::Index i) {
-      dem::Body& b = p.body[i];
-      const dem::Vec3 moved = coupling::interpolate_inside(x, u, b.x);
-      b.x += moved;
-      b.v = moved / dt;
-      b.omega.setZero();
-    });
-    coupled.rock.list.invalidate();
-    for (std::size_t k = 0; k < u.size(); ++k) wall.v[k] = u[k] / dt;
-    dem::add_forces(coupled.rock, dt);
-    p.for_owned([&](dem::Index i) { p.body[i].v.setZero(); });
-    for (dem::Vec3& v : wall.v) v.setZero();
-    relax(coupled, "settling with the far field", ratio, most_steps);
+  if (coupled.settling.stage == Stage::held) {
+    coupled.model = FarFieldModel::rigid;
+    relax(coupled, "settling in held walls", ratio, most_steps, after_step);
+    coupled.model = model;
+    if (model == FarFieldModel::elastic) settle_far_field(coupled);
+    coupled.settling = {Stage::free, 0};
   }
-  coupled.rock.domain.gather_motion(coupled.rock.particles);
-  for (const dem::Body& b : coupled.rock.particles.body) coupled.x_0.push_back(b.x);
+  if (coupled.settling.stage == Stage::free) {
+    if (model == FarFieldModel::elastic)
+      relax(coupled, "settling with the far field", ratio, most_steps, after_step);
+    coupled.rock.domain.gather_motion(coupled.rock.particles);
+    for (const dem::Body& b : coupled.rock.particles.body) coupled.x_0.push_back(b.x);
+    coupled.settling = {Stage::done, 0};
+  }
 }
 
 } // namespace mergel::apps

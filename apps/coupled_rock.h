@@ -5,8 +5,17 @@
 #include "coupling/exchange.h"
 #include "coupling/ledger.h"
 #include "dem/balance.h"
+#include "dem/io/state_file.h"
+
+#include <functional>
 
 namespace mergel::apps {
+
+/// How far a rock is on its way to equilibrium.
+struct Settling {
+  enum class Stage { held, free, done } stage = Stage::held;
+  std::size_t n = 0; ///< steps in this stage
+};
 
 /// The rock, the far field and what ties them. Kept in one place because the parts refer to
 /// each other.
@@ -21,10 +30,15 @@ struct CoupledRock {
   double safety = 0.7;
   std::size_t n_steps = 0;
   double time = 0.0;          ///< since the specimen was put in its walls [s]
+  Settling settling;          ///< kept by equilibrate()
   std::vector<dem::Vec3> x_0; ///< grains in equilibrium, set by equilibrate() [m]
 
   CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarField far_field,
               coupling::Interface interface);
+  /// As it was when put() wrote the state, with the piles that it had then; collective.
+  /// @throws InputError when the state is of another rock
+  CoupledRock(const RockCase& c, const dem::State& state, std::vector<dem::PileWall> piles,
+              fem::FarField far_field, coupling::Interface interface);
   CoupledRock(const CoupledRock&) = delete;
   CoupledRock& operator=(const CoupledRock&) = delete;
 
@@ -73,7 +87,12 @@ struct CoupledRock {
   static constexpr std::size_t steps_between_shares = 1000;
   static constexpr double imbalance_allowed = 1.05; ///< slowest over fastest rank
 
+  /// Add all that the constructor above needs; collective.
+  void put(dem::State& state) const;
+
 private:
+  CoupledRock(const RockCase& c, fem::FarField far_field, coupling::Interface interface);
+
   double spent_before_ = 0.0; ///< of rock.times at the last even_out() [s]
 };
 
@@ -82,8 +101,11 @@ private:
 fem::FarField make_far_field(RockCase& c);
 
 /// Bring it to equilibrium (design section 8): walls held, rock relaxed; static solve of
-/// the far field under the rock's forces, rock moved with it; both relaxed.
+/// the far field under the rock's forces, rock moved with it; both relaxed. Goes on where
+/// `coupled.settling` stands.
+/// @param after_step called between two steps, for checkpoints
 /// @throws NumericalError when a bond breaks or equilibrium is not reached in `most_steps`
-void equilibrate(CoupledRock& coupled, double ratio, std::size_t most_steps);
+void equilibrate(CoupledRock& coupled, double ratio, std::size_t most_steps,
+                 const std::function<void()>& after_step);
 
 } // namespace mergel::apps

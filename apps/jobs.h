@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,16 +14,20 @@ namespace mergel::apps {
 
 /// What the command line says about the run of a case.
 struct JobOptions {
-  std::filesystem::path case_file;
-  std::vector<std::string> set; ///< "Section/key=value", in the order given
-  std::filesystem::path output; ///< results folder, not yet looked at
-  bool overwrite = false;       ///< an earlier run there may be replaced
+  std::filesystem::path case_file; ///< may be empty with `restart`
+  std::vector<std::string> set;    ///< "Section/key=value", in the order given
+  std::filesystem::path output;    ///< results folder, not yet looked at
+  bool overwrite = false;          ///< an earlier run there may be replaced
+  std::filesystem::path restart;   ///< checkpoint or results folder; empty: begin
+  double walltime = std::numeric_limits<double>::infinity(); ///< the run ends before [s]
 };
 
 void help_bench(std::ostream& out); ///< every option of the job
 std::function<int()> read_bench(const std::vector<std::string>& arguments);
 void help_bond(std::ostream& out); ///< every key of the job
 int run_bond(const JobOptions& options);
+void help_info(std::ostream& out);
+std::function<int()> read_info(const std::vector<std::string>& arguments);
 void help_pile(std::ostream& out);
 int run_pile(const JobOptions& options);
 void help_sample(std::ostream& out);
@@ -43,9 +48,10 @@ struct Job {
   bool reads_case() const { return std::holds_alternative<RunCase>(run); }
 };
 
-inline constexpr std::array<Job, 4> jobs{{
+inline constexpr std::array<Job, 5> jobs{{
     {"bench", "Measure what a step costs on this machine.", help_bench, read_bench},
     {"bond", "Drive one bonded pair of spheres along any path.", help_bond, run_bond},
+    {"info", "Say what a sample, checkpoint or results folder is.", help_info, read_info},
     {"pile", "Install a pile in a coupled chamber of rock.", help_pile, run_pile},
     {"sample", "Make a specimen and write it to a file for later runs.", help_sample,
      run_sample},

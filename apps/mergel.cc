@@ -2,7 +2,10 @@
 
 #include "apps/command_line.h"
 #include "apps/jobs.h"
+#include "apps/keeper.h"
+#include "apps/restart.h"
 #include "apps/run_guard.h"
+#include "apps/signals.h"
 #include "apps/words.h"
 #include "dem/error.h"
 #include "fem/runtime.h"
@@ -25,7 +28,8 @@ void print_help(std::ostream& out)
 {
   out << "mergel: coupled DEM-FEM solver for weak, porous, bonded rock.\n\n"
          "usage: mergel <job> CASE.prm [--set \"Section/key=value\"]... [--output DIR] "
-         "[--overwrite]\n       mergel bench [options]\n\njobs:\n";
+         "[--overwrite]\n       mergel <job> [CASE.prm] --restart DIR [--walltime 4h]\n"
+         "       mergel bench [options]\n       mergel info PATH\n\njobs:\n";
   for (const Job& job : jobs) {
     std::string name = job.name;
     name.resize(std::max<std::size_t>(name.size(), 8), ' ');
@@ -49,7 +53,15 @@ void print_job_help(const Job& job, std::ostream& out)
   out << " CASE.prm [options]\n"
          "  --set \"Section/key=value\"  set a key over the case file; may be repeated\n"
          "  --output DIR               results folder; default results/<name of the case>\n"
-         "  --overwrite                replace an earlier run in that folder\n\n"
+         "  --overwrite                replace an earlier run in that folder\n"
+         "  --restart DIR|FILE         go on in a results folder from its newest good "
+         "checkpoint, or\n                             from this one; begin where there is "
+         "none yet. CASE.prm may be\n                             left out. bond and "
+         "sample "
+         "begin again: their results are\n                             the same bits, and "
+         "soon there\n"
+         "  --walltime TIME            write a checkpoint and stop in time before (4h, 30 "
+         "min, 4:00:00)\n\n"
          "Keys of CASE.prm, by section. Values carry their unit; any unit of the same "
          "dimension\nwill do.\n\n";
   job.help(out);
@@ -77,10 +89,16 @@ JobOptions parse_case(const Job& job, std::vector<std::string> arguments)
   app.add_option("--set", options.set)->expected(1)->take_all();
   app.add_option("--output", options.output);
   app.add_flag("--overwrite", options.overwrite);
+  app.add_option("--restart", options.restart);
+  std::string walltime;
+  app.add_option("--walltime", walltime);
   const std::string command = "mergel " + std::string(job.name);
   parse(app, command, std::move(arguments));
-  require(!options.case_file.empty(),
+  require(!options.case_file.empty() || !options.restart.empty(),
           command + ": no case file is given. See " + command + " --help.");
+  if (!walltime.empty()) options.walltime = to_walltime(walltime);
+  if (options.output.empty() && !options.restart.empty())
+    options.output = folder_to_restart(options.restart);
   if (options.output.empty())
     options.output = std::filesystem::path("results") / options.case_file.stem();
   return options;
@@ -125,6 +143,7 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  ignore_signals();
   // Words to the user come from the first rank alone.
   if (launched_rank() > 0) std::cout.setstate(std::ios::badbit);
   return run_guarded([&] { return run(argc, argv); });

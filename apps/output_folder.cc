@@ -3,6 +3,7 @@
 #include "apps/words.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "dem/io/checkpoint.h"
 
 #include <algorithm>
 #include <array>
@@ -34,7 +35,8 @@ constexpr std::string_view own_folder = "fields";
 
 bool is_own_file(const fs::path& name)
 {
-  return std::find(own_files.begin(), own_files.end(), name.string()) != own_files.end();
+  return std::find(own_files.begin(), own_files.end(), name.string()) != own_files.end() ||
+         dem::is_checkpoint_name(name);
 }
 
 /// particles_0012.vtp and the like.
@@ -108,7 +110,7 @@ void OutputFolder::check(const std::vector<fs::path>& inputs) const
                         "\". Choose another folder with --output.");
 
   const std::vector<fs::path> earlier = left_by_earlier_run();
-  if (earlier.empty()) return;
+  if (earlier.empty() || earlier_ == Earlier::go_on) return;
   if (earlier_ == Earlier::keep)
     refuse(folder_, "holds an earlier run (" +
                         earlier.front().lexically_relative(folder_).string() +
@@ -131,6 +133,7 @@ void OutputFolder::commit(const std::vector<fs::path>& inputs) const
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) refuse(folder_, "cannot be created: " + error.message() + ".");
+  if (earlier_ == Earlier::go_on) return;
   for (const fs::path& old : left_by_earlier_run()) {
     fs::remove(old, error); // removes a link, not what it points to
     if (error)
@@ -140,6 +143,24 @@ void OutputFolder::commit(const std::vector<fs::path>& inputs) const
   const fs::path fields = folder_ / own_folder;
   if (fs::is_directory(fs::symlink_status(fields)) && fs::is_empty(fields))
     fs::remove(fields, error);
+}
+
+void OutputFolder::cut_back(std::size_t n_frames, std::uint64_t step) const
+{
+  const std::string last = dem::checkpoint_name(step);
+  std::error_code ignored; // what stays is written again, alike
+  for (const fs::path& file : left_by_earlier_run()) {
+    const fs::path name = file.filename();
+    bool goes = final_name(name) != name || name == "summary.json";
+    if (dem::is_checkpoint_name(name))
+      goes = name.string().size() > last.size() ||
+             (name.string().size() == last.size() && name.string() > last);
+    else if (is_own_field(name)) {
+      const std::string stem = name.stem().string();
+      goes = std::stoull(stem.substr(stem.rfind('_') + 1)) >= n_frames;
+    }
+    if (goes) fs::remove(file, ignored);
+  }
 }
 
 } // namespace mergel::apps

@@ -2,6 +2,7 @@
 /// good.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -9,8 +10,9 @@ namespace mergel::apps {
 
 /// Whether a folder that holds an earlier run may be used again.
 enum class Earlier {
-  keep,     ///< refuse such a folder
-  overwrite ///< remove what mergel wrote there, and nothing else
+  keep,      ///< refuse such a folder
+  overwrite, ///< remove what mergel wrote there, and nothing else
+  go_on      ///< go on with that run: nothing is in the way
 };
 
 /// A folder for the results of one run.
@@ -18,8 +20,8 @@ enum class Earlier {
 /// mergel's own files in it, and the marks of an earlier run: history.csv, resolved.prm,
 /// summary.json, sample.h5, the four series particles, bonds, pile and far_field (.pvd, and
 /// their numbered files in fields/), mergel-view's damage.png, load.png, displacement.png,
-/// loads.png and surface.png; also their temporary files (dem/io/atomic_file.h). fields/ itself goes
-/// when nothing else is in it.
+/// loads.png and surface.png, the checkpoints checkpoint_*.h5; also their temporary files
+/// (dem/io/atomic_file.h). fields/ itself goes when nothing else is in it.
 class OutputFolder {
 public:
   OutputFolder(std::filesystem::path folder, Earlier earlier);
@@ -37,6 +39,10 @@ public:
   /// check() again, create the folder, and remove what an earlier run left.
   /// @throws InputError as above, or with the system's reason
   void commit(const std::vector<std::filesystem::path>& inputs = {}) const;
+
+  /// Remove what the earlier run wrote after a checkpoint, and what it left unfinished:
+  /// frames from `n_frames` on, checkpoints after `step`, the summary, temporary files.
+  void cut_back(std::size_t n_frames, std::uint64_t step) const;
 
 private:
   std::vector<std::filesystem::path> left_by_earlier_run() const;

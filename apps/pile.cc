@@ -5,6 +5,7 @@
 #include "apps/pile_output.h"
 #include "apps/progress.h"
 #include "apps/ranks.h"
+#include "apps/restart.h"
 #include "dem/distribute.h"
 #include "dem/io/atomic_file.h"
 
@@ -12,6 +13,7 @@
 #include <iostream>
 #include <optional>
 #include <sstream>
+#include <type_traits>
 
 namespace mergel::apps {
 
@@ -24,27 +26,23 @@ public:
   std::size_t near = 0;  ///< within 2 D_p of the axis
   std::size_t above = 0; ///< more than D_p above the shoulder and outside the shaft
 
-  /// Count the bonds that broke since the last call; collective.
-  void update(const dem::Rock& rock)
+  /// Count the bonds that broke since the last call, and forget them; collective.
+  void take(dem::Rock& rock)
   {
     const dem::Pile& pile = rock.piles.front().pile;
     const double D = 2.0 * pile.R;
-    const auto& breakages = rock.losses.breakages;
     std::size_t n_near = 0, n_above = 0;
-    for (std::size_t k = n_seen_; k < breakages.size(); ++k) {
-      const dem::Vec3& x = breakages[k].x;
+    for (const dem::Breakage& b : rock.losses.breakages) {
+      const dem::Vec3& x = b.x;
       const double r = std::hypot(x.x() - pile.x_axis, x.y() - pile.y_axis);
       n_near += r <= 2.0 * D;
       n_above += x.z() > pile.z_shoulder() + D && r > pile.R;
     }
-    all += rock.domain.sum(breakages.size() - n_seen_);
+    all += rock.domain.sum(rock.losses.breakages.size());
     near += rock.domain.sum(n_near);
     above += rock.domain.sum(n_above);
-    n_seen_ = breakages.size();
+    rock.losses.breakages.clear();
   }
-
-private:
-  std::size_t n_seen_ = 0;
 };
 
 /// Velocity that starts and ends with a ramp of constant acceleration over 0.05 D.
@@ -61,6 +59,7 @@ public:
     return v_ * std::clamp(std::sqrt(std::max(0.0, s) / ramp_), 0.01, 1.0);
   }
   double travel() const { return travel_; }
+  double slows_down_at() const { return travel_ - ramp_; } ///< travel of the tip [m]
 
 private:
   double v_, ramp_, travel_;
@@ -79,18 +78,40 @@ struct MeanForce {
   }
 };
 
+/// The pile with its tip at the surface, at rest.
+dem::PileWall make_pile(const PileCase& c)
+{
+  dem::PileWall pile;
+  pile.pile.R = 0.5 * c.diameter;
+  pile.pile.cone_height = c.cone_height();
+  pile.material = c.contact;
+  return pile;
+}
+
 /// Drives the pile down and keeps the books.
 class Installation {
 public:
   /// @param output null on all ranks but the first
   Installation(const PileCase& c, CoupledRock& coupled, PileOutput* output)
-      : case_(c), coupled_(coupled), output_(output), jack_(c), start_(coupled.books())
+      : case_(c), coupled_(coupled), output_(output), jack_(c)
   {
-    dem::PileWall pile;
-    pile.pile.R = 0.5 * c.diameter;
-    pile.pile.cone_height = c.cone_height();
-    pile.material = c.contact;
-    coupled.rock.piles.push_back(pile);
+    next_record_ = c.record_every;
+  }
+
+  /// Whether a state is that of a pile under way.
+  static bool is_in(const dem::State& state) { return state.has("pile_numbers"); }
+  /// Of the tip in such a state [m].
+  static double travelled_in(const dem::State& state)
+  {
+    return -state.get_rows<double>("pile0_place", 1, 6)[4];
+  }
+
+  /// Put the pile on the rock in equilibrium.
+  void begin()
+  {
+    CoupledRock& coupled = coupled_;
+    start_ = coupled.books();
+    coupled.rock.piles.push_back(make_pile(case_));
     coupled.rock.list.invalidate();
     dem::add_forces(coupled.rock, 0.0);
     std::size_t n = 0; // each where its first grain is owned
@@ -102,15 +123,22 @@ public:
     for (const dem::Mirror& m : coupled.rock.mirrors)
       for (const dem::MirrorPair& pair : m.pairs) n += pair.bond.intact > 0.0;
     n_bonds_ = n_between_ + coupled.rock.domain.sum(n);
+    frame();
+    n_frames_ = 1;
   }
 
-  void run()
+  void put(dem::State& state) const;
+  /// Go on as put() told.
+  void take(const dem::State& state);
+  /// The next record, or frame, by a spacing that is not that of the run so far.
+  void space_records_anew();
+  void space_frames_anew();
+
+  /// @param after_step called between two steps, for checkpoints
+  void run(const std::function<void()>& after_step)
   {
     dem::Pile& pile = coupled_.rock.piles.front().pile;
     Progress progress("driving");
-    frame();
-    int n_frames = 1;
-    double next_record = case_.record_every;
     while (travelled() < jack_.travel()) {
       coupled_.step([&](double dt) {
         pile.v_z = -jack_.velocity(travelled());
@@ -122,16 +150,17 @@ public:
         dem::check_overlaps(coupled_.rock);
 
       const bool is_over = travelled() >= jack_.travel();
-      if (travelled() >= next_record || is_over) {
+      if (travelled() >= next_record_ || is_over) {
         record();
-        next_record += case_.record_every;
+        next_record_ += case_.record_every;
       }
-      if (travelled() >= jack_.travel() * n_frames / case_.frames || is_over) {
+      if (travelled() >= next_frame() || is_over) {
         frame();
-        ++n_frames;
+        ++n_frames_;
       }
       if (coupled_.n_steps % 20 == 0)
         progress.update(travelled() / jack_.travel(), [&] { return now(); });
+      if (!is_over) after_step();
     }
     progress.done(now());
   }
@@ -145,6 +174,17 @@ public:
   std::size_t n_between() const { return n_between_; } ///< of these, between grains
 
 private:
+  double next_frame() const
+  {
+    return jack_.travel() * static_cast<double>(n_frames_) / case_.frames;
+  }
+
+  /// Every number of a run, to be kept and taken; `self` may be const.
+  template <class Self>
+  static auto numbers_of(Self& self);
+  template <class Self>
+  static auto counts_of(Self& self);
+
   double travelled() const { return -coupled_.rock.piles.front().pile.z_tip; }
 
   void frame()
@@ -174,7 +214,7 @@ private:
     r.F_tip = half_to_full * force_.cone / static_cast<double>(force_.n);
     r.F_shaft = half_to_full * force_.shaft / static_cast<double>(force_.n);
     r.q_c = r.F_tip / area;
-    breakage_.update(coupled_.rock);
+    breakage_.take(coupled_.rock);
     r.broken = coupled_.rock.domain.sum(
         coupled_.rock.losses.broken); // none while settling: equilibrate() throws
     r.unbalanced = coupled_.unbalanced();
@@ -218,9 +258,73 @@ private:
   MeanForce force_;
   PileRecord last_;
   double time_ = 0.0, q_peak_ = 0.0, worst_energy_error_ = 0.0;
+  double next_record_ = 0.0; ///< travel [m]
+  std::size_t n_frames_ = 0; ///< thresholds of frames passed, the first included
   coupling::InterfaceBalance worst_interface_;
   std::size_t n_bonds_ = 0, n_between_ = 0;
 };
+
+template <class Self>
+auto Installation::numbers_of(Self& self)
+{
+  using Number = std::conditional_t<std::is_const_v<Self>, const double, double>;
+  std::vector<Number*> all{&self.time_,        &self.q_peak_,     &self.worst_energy_error_,
+                           &self.next_record_, &self.force_.cone, &self.force_.shaft};
+  for (auto* b : {&self.worst_interface_, &self.last_.interface})
+    all.insert(all.end(), {&b->force, &b->moment, &b->power});
+  auto& r = self.last_;
+  all.insert(all.end(), {&r.time, &r.depth, &r.tip_depth, &r.F_tip, &r.F_shaft, &r.q_c,
+                         &r.unbalanced, &r.kinetic, &r.energy_error});
+  for (auto* e : {&self.start_.rock, &self.last_.book})
+    all.insert(all.end(), {&e->kinetic, &e->bonds, &e->contacts, &e->walls, &e->mirror,
+                           &e->gravity, &e->wall_work, &e->pile_work, &e->slip, &e->plastic,
+                           &e->residue, &e->lock, &e->damping});
+  auto& f = self.start_.far_field;
+  all.insert(all.end(), {&f.kinetic, &f.strain, &f.interface_work, &f.gravity_work,
+                         &f.initial_stress_work, &f.damping});
+  return all;
+}
+
+template <class Self>
+auto Installation::counts_of(Self& self)
+{
+  using Count = std::conditional_t<std::is_const_v<Self>, const std::size_t, std::size_t>;
+  return std::vector<Count*>{
+      &self.force_.n,        &self.last_.broken, &self.breakage_.all, &self.breakage_.near,
+      &self.breakage_.above, &self.n_frames_,    &self.n_bonds_,      &self.n_between_};
+}
+
+void Installation::put(dem::State& state) const
+{
+  std::vector<double> numbers;
+  for (const double* a : numbers_of(*this)) numbers.push_back(*a);
+  std::vector<std::uint64_t> counts;
+  for (const std::size_t* n : counts_of(*this)) counts.push_back(*n);
+  state.add_common("pile_numbers", std::move(numbers));
+  state.add_common("pile_counts", std::move(counts));
+}
+
+void Installation::take(const dem::State& state)
+{
+  const auto all = numbers_of(*this);
+  const auto& numbers = state.get_rows<double>("pile_numbers", all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) *all[k] = numbers[k];
+  const auto all_counts = counts_of(*this);
+  const auto& counts = state.get_rows<std::uint64_t>("pile_counts", all_counts.size());
+  for (std::size_t k = 0; k < all_counts.size(); ++k) *all_counts[k] = counts[k];
+}
+
+void Installation::space_records_anew()
+{
+  next_record_ = case_.record_every * (std::floor(travelled() / case_.record_every) + 1.0);
+}
+
+void Installation::space_frames_anew()
+{
+  n_frames_ = 1;
+  while (n_frames_ < static_cast<std::size_t>(case_.frames) && next_frame() <= travelled())
+    ++n_frames_;
+}
 
 /// Grains that flew over the rim of the interface; they are followed, but nothing catches them.
 std::size_t count_debris(const dem::Rock& rock, double lip)
@@ -235,8 +339,14 @@ struct Share {
   double seconds;
 };
 
+/// Steps of this start of the program, seconds of the whole run.
+struct Work {
+  std::size_t n_steps;
+  double seconds;
+};
+
 /// Time of a step by its parts, as shares of the whole.
-std::string shares(const CoupledRock& coupled, double seconds)
+std::string shares(const CoupledRock& coupled, const Work& work)
 {
   const dem::StepTimes& t = coupled.rock.times;
   const double far = coupled.exchange.far_field_seconds,
@@ -244,9 +354,9 @@ std::string shares(const CoupledRock& coupled, double seconds)
   const double whole = t.total() + far + ex;
   std::ostringstream out;
   out.precision(3);
-  out << "time of a step: " << 1e6 * whole / static_cast<double>(coupled.n_steps)
-      << " us in " << coupled.n_steps << " steps, "
-      << 1e9 * whole / static_cast<double>(coupled.n_steps * coupled.rock.particles.size())
+  out << "time of a step: " << 1e6 * whole / static_cast<double>(work.n_steps) << " us in "
+      << work.n_steps << " steps, "
+      << 1e9 * whole / static_cast<double>(work.n_steps * coupled.rock.particles.size())
       << " ns a grain;";
   for (const Share& s : {Share{"bonds", t.bonds},
                          {"contacts", t.contacts},
@@ -257,7 +367,7 @@ std::string shares(const CoupledRock& coupled, double seconds)
                          {"far field", far},
                          {"coupling", ex}})
     out << ' ' << s.name << ' ' << 100.0 * s.seconds / whole << " %,";
-  out << " whole run " << duration_text(seconds);
+  out << " whole run " << duration_text(work.seconds);
   return out.str();
 }
 
@@ -300,7 +410,7 @@ void write_summary(const std::filesystem::path& file, const Installation& run,
 
 void print_summary(const std::filesystem::path& folder, const PileCase& c,
                    const Installation& run, const CoupledRock& coupled,
-                   std::size_t n_debris, double seconds)
+                   std::size_t n_debris, const Work& work)
 {
   const PileRecord& r = run.last();
   const BreakageCount& broken = run.breakage();
@@ -320,7 +430,7 @@ void print_summary(const std::filesystem::path& folder, const PileCase& c,
             << " % of the input; interface balances to " << run.worst_interface().force
             << " (force), " << run.worst_interface().moment << " (moment), "
             << run.worst_interface().power << " (power)\n"
-            << shares(coupled, seconds) << "\nresults: " << folder.string()
+            << shares(coupled, work) << "\nresults: " << folder.string()
             << " (history.csv, summary.json, *.pvd for ParaView); pictures: mergel-view "
             << folder.string() << "\n";
 }
@@ -335,45 +445,179 @@ void help_pile(std::ostream& out)
   file.help(out);
 }
 
+namespace {
+
+/// Keys that a restart may change.
+const std::vector<std::string> free_keys{"Pile/final depth", "Output/record every",
+                                         "Output/frames", "Output/checkpoint every",
+                                         "Specimen/file"};
+
+/// The velocity near the end depends on where the end is: a run that slows down, or would
+/// have by now, cannot get another end.
+void check_new_end(const CaseFile& file, const PileCase& c, const Restart& restart)
+{
+  if (!Installation::is_in(restart.checkpoint.state)) return;
+  CaseFile earlier_file;
+  PileCase earlier;
+  declare(earlier_file, earlier);
+  earlier_file.read_text(restart.checkpoint.label.case_text, restart.file.string());
+  if (earlier.travel() == c.travel()) return;
+  const double travelled = Installation::travelled_in(restart.checkpoint.state);
+  if (travelled <= std::min(Jack(earlier).slows_down_at(), Jack(c).slows_down_at())) return;
+  const auto mm = [](double x) { return dem::shortest(1e3 * x) + " mm"; };
+  file.refuse(
+      "Pile", "final depth",
+      "was " + mm(earlier.final_depth) + ", and with its tip at " + mm(travelled) +
+          " the checkpoint lies beyond the place where the pile begins to slow down "
+          "for one of the two: restore it, or take an older checkpoint");
+}
+
+/// The folder of the run.
+OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart)
+{
+  std::error_code error;
+  const auto is_output = [&](const std::filesystem::path& folder) {
+    return std::filesystem::equivalent(options.output, folder, error);
+  };
+  if (restart && is_output(restart->folder)) return {options.output, Earlier::go_on};
+  // A run that was ended before its first checkpoint begins again.
+  const bool begins_again = !restart && is_output(options.restart);
+  if (begins_again)
+    require(!std::filesystem::exists(options.output / "summary.json"),
+            "--restart " + options.restart.string() +
+                ": holds a finished run without a checkpoint. Choose another folder with "
+                "--output, or replace that run with --overwrite and without --restart.");
+  return {options.output,
+          options.overwrite || begins_again ? Earlier::overwrite : Earlier::keep};
+}
+
+/// Files that the run reads after the folder was looked at.
+std::vector<std::filesystem::path> inputs_of(const JobOptions& options, const PileCase& c,
+                                             const std::optional<Restart>& restart)
+{
+  std::vector<std::filesystem::path> inputs;
+  if (options.restart.empty()) inputs.push_back(options.case_file);
+  if (restart) inputs.push_back(restart->file);
+  if (!restart && !c.rock.sample.empty()) inputs.push_back(c.rock.sample);
+  return inputs;
+}
+
+/// What a run had done before this start of the program.
+struct WorkBefore {
+  std::size_t n_steps = 0;
+  double seconds = 0.0;
+};
+
+WorkBefore take_work(const dem::Checkpoint& checkpoint)
+{
+  return {checkpoint.label.step, checkpoint.state.get_rows<double>("seconds", 1).front()};
+}
+
+void go_on(Installation& run, const dem::State& state,
+           const std::vector<CaseFile::Change>& changed)
+{
+  run.take(state);
+  for (const CaseFile::Change& c : changed) {
+    if (c.key == "record every") run.space_records_anew();
+    if (c.key == "final depth" || c.key == "frames") run.space_frames_anew();
+  }
+}
+
+} // namespace
+
 int run_pile(const JobOptions& options)
 {
   const double start = dem::wall_clock();
+  std::optional<Restart> restart;
+  on_every_rank([&] { restart = find_restart(options.restart, "pile"); });
   CaseFile file;
   PileCase c;
   declare(file, c);
-  file.read(options.case_file, options.set);
+  read_case(file, options, restart);
   complete(file, c);
-  const OutputFolder folder(options.output,
-                            options.overwrite ? Earlier::overwrite : Earlier::keep);
-  std::vector<std::filesystem::path> inputs{options.case_file};
-  if (!c.rock.sample.empty()) inputs.push_back(c.rock.sample);
-  on_first_rank([&] { folder.check(inputs); });
+  std::vector<CaseFile::Change> changed;
+  if (restart) {
+    changed = check_case(file, *restart, free_keys);
+    check_new_end(file, c, *restart);
+    std::cout << report(*restart, changed) << '\n';
+  }
+  const OutputFolder folder = folder_of(options, restart);
+  const auto inputs = inputs_of(options, c, restart);
+  on_first_rank([&] {
+    folder.check(inputs);
+    if (restart) PileOutput::check(restart->folder, restart->checkpoint.state);
+  });
 
   fem::FarField far_field = make_far_field(c.rock);
   coupling::Interface interface =
       coupling::make_interface(far_field.interface(), c.rock.interface, c.rock.lip);
-  const dem::Sample sample = obtain_sample(file, c.rock);
-  std::cout << far_field.summary() << '\n' << report(c.rock, sample) << '\n';
-
+  std::cout << far_field.summary() << '\n';
   std::optional<PileOutput> output;
-  on_first_rank([&] {
-    folder.commit(inputs);
-    file.write_resolved(folder.path() / "resolved.prm");
-    dem::write_sample(folder.path() / "sample.h5", sample);
-    output.emplace(folder.path(), c);
-  });
+  std::optional<CoupledRock> coupled;
+  if (restart) {
+    const dem::State& state = restart->checkpoint.state;
+    std::vector<dem::PileWall> piles;
+    if (Installation::is_in(state)) piles.push_back(make_pile(c));
+    coupled.emplace(c.rock, state, std::move(piles), std::move(far_field),
+                    std::move(interface));
+    on_first_rank([&] {
+      folder.commit(inputs);
+      folder.cut_back(PileOutput::n_frames(state), restart->checkpoint.label.step);
+      file.write_resolved(folder.path() / "resolved.prm");
+      output.emplace(folder.path(), c, restart->folder, state);
+    });
+  } else {
+    const dem::Sample sample = obtain_sample(file, c.rock);
+    std::cout << report(c.rock, sample) << '\n';
+    on_first_rank([&] {
+      folder.commit(inputs);
+      file.write_resolved(folder.path() / "resolved.prm");
+      dem::write_sample(folder.path() / "sample.h5", sample);
+      output.emplace(folder.path(), c);
+    });
+    coupled.emplace(c.rock, sample, std::move(far_field), std::move(interface));
+  }
 
-  CoupledRock coupled(c.rock, sample, std::move(far_field), std::move(interface));
-  equilibrate(coupled, c.rock.balance, 200'000);
-  Installation run(c, coupled, output ? &*output : nullptr);
-  run.run();
+  Installation run(c, *coupled, output ? &*output : nullptr);
+  const WorkBefore before = restart ? take_work(restart->checkpoint) : WorkBefore{};
+  const auto seconds = [&] { return before.seconds + dem::wall_clock() - start; };
+  Keeper keeper({.folder = folder.path(),
+                 .job = "pile",
+                 .case_text = file.resolved_text(),
+                 .every = c.checkpoints,
+                 .end = start + options.walltime,
+                 .restarted_from = restart ? restart->file : std::filesystem::path{}});
+  bool is_driving = restart && Installation::is_in(restart->checkpoint.state);
+  if (is_driving) go_on(run, restart->checkpoint.state, changed);
+  restart.reset(); // its arrays are no longer needed
+  const auto after_step = [&] {
+    keeper.after_step(
+        coupled->rock.domain,
+        {coupled->n_steps, coupled->time, is_driving ? "driving" : "settling"},
+        [&](dem::State& state) {
+          coupled->put(state);
+          PileOutput::put(state, output ? &*output : nullptr);
+          state.add_common<double>("seconds", {seconds()});
+          if (is_driving) run.put(state);
+        });
+  };
+  try {
+    equilibrate(*coupled, c.rock.balance, 200'000, after_step);
+    if (!is_driving) run.begin();
+    is_driving = true;
+    run.run(after_step);
+  } catch (const CollectiveFailure&) {
+    throw; // says all there is to say
+  } catch (const std::runtime_error& e) {
+    throw NumericalError(e.what() + keeper.remedy());
+  }
 
-  const double seconds = dem::wall_clock() - start;
-  const std::size_t n_debris = count_debris(coupled.rock, c.rock.lip);
+  const std::size_t n_debris = count_debris(coupled->rock, c.rock.lip);
   on_first_rank([&] {
-    write_summary(folder.path() / "summary.json", run, coupled, n_debris, seconds);
+    write_summary(folder.path() / "summary.json", run, *coupled, n_debris, seconds());
   });
-  print_summary(folder.path(), c, run, coupled, n_debris, seconds);
+  print_summary(folder.path(), c, run, *coupled, n_debris,
+                {coupled->n_steps - before.n_steps, seconds()});
   return 0;
 }
 

@@ -1,6 +1,7 @@
 /// Case of `mergel pile`: rock, pile and output.
 #pragma once
 
+#include "apps/keeper.h"
 #include "apps/rock_case.h"
 
 namespace mergel::apps {
@@ -18,6 +19,8 @@ struct PileCase {
   // Output
   double record_every = unset; ///< travel between lines of history.csv [m]
   int frames = 20;             ///< pictures of the fields after the first
+  std::string checkpoint_every = "10 min";
+  Cadence checkpoints; ///< the same, set by complete()
 
   double cone_height() const;
   /// From the tip at the surface to the shoulder at the final depth [m].

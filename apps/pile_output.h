@@ -28,6 +28,22 @@ struct PileRecord {
 class PileOutput {
 public:
   PileOutput(const std::filesystem::path& folder, const PileCase& c);
+  /// Go on with what `earlier`, which may be the same folder, held when put() wrote
+  /// `state`.
+  /// @throws InputError when it no longer does
+  PileOutput(const std::filesystem::path& folder, const PileCase& c,
+             const std::filesystem::path& earlier, const dem::State& state);
+
+  /// Add how far the files go, all of them on the disk.
+  /// @param output null on all ranks but the first
+  static void put(dem::State& state, const PileOutput* output);
+  /// @throws InputError when the files of `folder` do not go as far as `state` says
+  static void check(const std::filesystem::path& folder, const dem::State& state);
+  /// Frames that there were.
+  static std::size_t n_frames(const dem::State& state)
+  {
+    return state.get<double>("output_frames").size();
+  }
 
   void record(const PileRecord& r);
   /// Particles, bonds, pile and far field at this time [s].
@@ -35,11 +51,14 @@ public:
   void frame(double time, const dem::Rock& rock, const CoupledRock& coupled);
 
 private:
+  PileOutput(const std::filesystem::path& folder, double diameter, dem::History history,
+             const std::vector<double>& frame_times);
+
   std::filesystem::path fields_;
   double diameter_;
   dem::History history_;
+  std::vector<double> frame_times_; ///< [s]
   dem::Series particles_, bonds_, pile_, far_field_;
-  int n_frames_ = 0;
 };
 
 } // namespace mergel::apps

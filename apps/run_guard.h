@@ -7,6 +7,7 @@
 #pragma once
 
 #include "apps/words.h"
+#include "dem/collective_failure.h"
 
 #include <mpi.h>
 
@@ -24,7 +25,8 @@ enum ExitCode : int { exit_done = 0, exit_input = 1, exit_failure = 2, exit_bug 
 /// What to print, and how the program ends.
 struct Verdict {
   int code;
-  std::string message; ///< one line
+  std::string message;        ///< one line
+  bool is_collective = false; ///< found alike on all ranks
 };
 
 /// Judge the exception that is being handled. @pre called from a catch block
@@ -33,7 +35,9 @@ inline Verdict judge_current_exception()
   try {
     throw;
   } catch (const std::invalid_argument& error) {
-    return {exit_input, in_one_line(error.what())};
+    return {exit_input, in_one_line(error.what()), true};
+  } catch (const CollectiveFailure& error) {
+    return {exit_failure, in_one_line(error.what()), true};
   } catch (const std::runtime_error& error) {
     return {exit_failure, in_one_line(error.what())};
   } catch (const std::bad_alloc&) {
@@ -65,9 +69,9 @@ inline int launched_rank()
 /// code of that.
 ///
 /// Call it while MPI is up if the body uses MPI: an exception must not unwind past
-/// MPI_Finalize. Bad input is found alike on all ranks: rank 0 speaks and all return. Any
-/// other exception on one of several ranks would leave the others waiting: it names its
-/// rank and calls MPI_Abort.
+/// MPI_Finalize. Bad input is found alike on all ranks, and so is a CollectiveFailure: rank
+/// 0 speaks and all return. Any other exception on one of several ranks would leave the
+/// others waiting: it names its rank and calls MPI_Abort.
 template <class Body>
 int run_guarded(const Body& body)
 {
@@ -90,7 +94,7 @@ int run_guarded(const Body& body)
       MPI_Comm_rank(MPI_COMM_WORLD, &rank);
       MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
     }
-    if (n_ranks == 1 || verdict.code == exit_input) {
+    if (n_ranks == 1 || verdict.is_collective) {
       if (rank == 0) std::cerr << verdict.message << std::endl;
       return verdict.code;
     }

@@ -4,6 +4,7 @@
 #include "apps/output_folder.h"
 #include "apps/pile_case.h"
 #include "apps/ranks.h"
+#include "apps/restart.h"
 #include "dem/io/rock_fields.h"
 
 #include <iostream>
@@ -22,14 +23,16 @@ int run_sample(const JobOptions& options)
   CaseFile file;
   PileCase c;
   declare(file, c);
-  file.read(options.case_file, options.set);
+  read_case(file, options, std::nullopt);
   complete(file, c);
   if (!c.rock.sample.empty())
     file.refuse("Specimen", "file",
                 "mergel sample makes the specimen: leave the key empty");
-  const OutputFolder folder(options.output,
-                            options.overwrite ? Earlier::overwrite : Earlier::keep);
-  on_first_rank([&] { folder.check({options.case_file}); });
+  const OutputFolder folder = folder_to_begin_in(options);
+  const auto inputs = options.restart.empty()
+                          ? std::vector<std::filesystem::path>{options.case_file}
+                          : std::vector<std::filesystem::path>{};
+  on_first_rank([&] { folder.check(inputs); });
 
   make_far_field(c.rock); // sets the faces around the side
   const dem::Sample sample = obtain_sample(file, c.rock);
@@ -37,7 +40,7 @@ int run_sample(const JobOptions& options)
 
   const auto path = folder.path() / "sample.h5";
   on_first_rank([&] {
-    folder.commit({options.case_file});
+    folder.commit(inputs);
     file.write_resolved(folder.path() / "resolved.prm");
     dem::write_sample(path, sample);
   });

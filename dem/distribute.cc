@@ -153,6 +153,10 @@ void keep_sums_once(Rock& rock)
   if (rock.domain.rank() == 0) return;
   rock.losses = {};
   rock.work = {};
+  for (Mirror& m : rock.mirrors) {
+    m.energy.clear();
+    m.force.clear();
+  }
 }
 
 } // namespace

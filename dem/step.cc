@@ -17,23 +17,6 @@ void choose_ghosts(Rock& rock)
   rock.domain.choose_ghosts(rock.particles, is_needed);
 }
 
-void rebuild_lists(Rock& rock)
-{
-  rock.domain.gather_motion(rock.particles);
-  const Particles& p = rock.particles;
-  const double skin = rock.list.skin();
-  rock.list.rebuild(p, rock.cell, rock.bonds, rock.contacts);
-  for (Mirror& m : rock.mirrors) rebuild_mirror(m, p, rock.material.contact.g_a, skin);
-  for (PlaneWall& w : rock.planes)
-    w.contacts.rebuild(p, w.material.g_a, skin, w.plane.point,
-                       [&](const Body& b) { return w.plane.touch(b).gap; });
-  for (Wall& w : rock.walls) rebuild_wall(w, p, skin);
-  for (PileWall& w : rock.piles)
-    w.contacts.rebuild(p, w.material.g_a, skin, w.pile.tip(),
-                       [&](const Body& b) { return w.pile.meet(b).touch.gap; });
-  choose_ghosts(rock);
-}
-
 /// What acts on walls, from all ranks.
 void sum_wall_forces(Rock& rock)
 {
@@ -71,6 +54,23 @@ double wall_clock()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
+}
+
+void rebuild_lists(Rock& rock)
+{
+  rock.domain.gather_motion(rock.particles);
+  const Particles& p = rock.particles;
+  const double skin = rock.list.skin();
+  rock.list.rebuild(p, rock.cell, rock.bonds, rock.contacts);
+  for (Mirror& m : rock.mirrors) rebuild_mirror(m, p, rock.material.contact.g_a, skin);
+  for (PlaneWall& w : rock.planes)
+    w.contacts.rebuild(p, w.material.g_a, skin, w.plane.point,
+                       [&](const Body& b) { return w.plane.touch(b).gap; });
+  for (Wall& w : rock.walls) rebuild_wall(w, p, skin);
+  for (PileWall& w : rock.piles)
+    w.contacts.rebuild(p, w.material.g_a, skin, w.pile.tip(),
+                       [&](const Body& b) { return w.pile.meet(b).touch.gap; });
+  choose_ghosts(rock);
 }
 
 void add_forces(Rock& rock, double dt)

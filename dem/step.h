@@ -85,6 +85,9 @@ struct Rock {
 /// as is all below.
 void add_forces(Rock& rock, double dt);
 
+/// Make all lists anew for the present positions, whatever their age: it changes no force.
+void rebuild_lists(Rock& rock);
+
 /// kick, drift, move the walls by `move_walls(dt)`, forces.
 ///
 /// The walls hold v^{n-1/2} before and v^{n+1/2} after move_walls, which also moves them to

@@ -4,7 +4,6 @@
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/data_out.h>
 
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -45,21 +44,21 @@ void write_vtu(const ElasticSolid& solid, const Nodal& u, const Nodal& v,
   out.add_data_vector(solid.dofs(), velocity, std::vector<std::string>(3, "velocity"),
                       vector);
   out.add_data_vector(stress_dofs, stress, std::vector<std::string>(9, "stress"), tensor);
+  dealii::DataOutBase::VtkFlags flags;
+  flags.print_date_and_time = false; // a repeated run gives the same file
+  out.set_flags(flags);
   out.build_patches();
 
   std::ostringstream
       text; // deal.II reports a bad stream with a page of guesses and a stack
   out.write_vtu(text);
-  const std::string temporary = path + ".part";
-  std::ofstream file(temporary, std::ios::binary);
+  std::ofstream file(path, std::ios::binary);
   file << text.str();
   file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(temporary, path, error);
-  if (!file || error)
-    throw std::runtime_error("far field output " + path + ": cannot be written" +
-                             (error ? " (" + error.message() + ")" : "") +
-                             "; is the folder there, writable, and the disk not full?");
+  if (!file)
+    throw std::runtime_error("far field output " + path +
+                             ": cannot be written; is the folder there, writable, and the "
+                             "disk not full?");
 }
 
 } // namespace mergel::fem

@@ -8,8 +8,9 @@
 namespace mergel::fem {
 
 /// Write displacement u [m], velocity v [m/s] at the nodes and the cells' mean stress [Pa]
-/// (tensor, tension positive, initial stress included) as one .vtu file. It appears under
-/// its name only when complete. Throws std::runtime_error when it cannot be written.
+/// (tensor, tension positive, initial stress included) as one .vtu file. Give a temporary
+/// name and rename it, so that the file appears whole. Throws std::runtime_error when it
+/// cannot be written.
 void write_vtu(const ElasticSolid& solid, const Nodal& u, const Nodal& v,
                const std::string& path);
 

@@ -99,6 +99,9 @@ void replace_file(const fs::path& file, const std::function<void(const fs::path&
   write(temporary);
   Descriptor(temporary, O_RDONLY, file).flush_and_close();
   if (::rename(temporary.c_str(), file.c_str()) != 0) fail(file);
+  // The new name is on the disk only when its folder is.
+  const fs::path folder = file.parent_path().empty() ? "." : file.parent_path();
+  Descriptor(folder, O_RDONLY | O_DIRECTORY, file).flush_and_close();
 }
 
 void replace_file(const fs::path& file, std::string_view bytes)

@@ -1,6 +1,7 @@
 /// history.csv: one flushed line a record, header with names and units.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -8,22 +9,43 @@
 
 namespace mergel::dem {
 
+/// How far a history had come: so many bytes, and the sum of these (fnv_1a() of
+/// dem/io/seal.h).
+struct HistoryMark {
+  std::uint64_t bytes = 0, sum = 0;
+};
+
 class History {
 public:
   /// @param columns "name [unit]" each
   /// @throws NumericalError when the file cannot be written
   History(std::filesystem::path file, const std::vector<std::string>& columns);
 
+  /// Go on where `earlier`, which may be `file` itself, stood at the mark: what it holds
+  /// beyond is left out. `file` is replaced whole.
+  /// @throws InputError when `earlier` does not begin as it did at the mark
+  History(std::filesystem::path file, const std::vector<std::string>& columns,
+          const std::filesystem::path& earlier, const HistoryMark& mark);
+
   /// One value per column; shortest text that reads back to the same bits.
   /// @throws NumericalError for a value that is not finite, naming its column, or when
   ///   the disk is full
   void add(const std::vector<double>& values);
 
+  /// Bring all lines to the disk, and say how far they go.
+  HistoryMark mark() const;
+
 private:
+  void write(const std::string& line);
+
   std::filesystem::path file_;
   std::vector<std::string> columns_;
   std::ofstream out_;
+  HistoryMark mark_;
 };
+
+/// @throws InputError, naming the file, when it does not begin as it did at the mark
+void check_history(const std::filesystem::path& file, const HistoryMark& mark);
 
 /// The shortest decimal text that reads back to the same bits.
 std::string shortest(double value);

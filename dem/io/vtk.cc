@@ -180,20 +180,31 @@ Series::Series(fs::path pvd, std::vector<SeriesEntry> earlier)
 void Series::add(double time, const fs::path& file)
 {
   const fs::path folder = fs::absolute(pvd_).lexically_normal().parent_path();
-  std::vector<SeriesEntry> entries = entries_;
-  entries.push_back(
+  entries_.push_back(
       {time, fs::absolute(file).lexically_normal().lexically_proximate(folder)});
+  try {
+    write();
+  } catch (...) {
+    entries_.pop_back();
+    throw;
+  }
+}
 
+void Series::write() const
+{
+  if (entries_.empty()) {
+    fs::remove(pvd_);
+    return;
+  }
   std::string text = "<?xml version=\"1.0\"?>\n"
                      "<VTKFile type=\"Collection\" version=\"1.0\">\n"
                      "  <Collection>\n";
-  for (const SeriesEntry& entry : entries)
+  for (const SeriesEntry& entry : entries_)
     text += "    <DataSet timestep=\"" + to_text(entry.time) + "\" part=\"0\" file=\"" +
             escaped(entry.file.generic_string()) + "\"/>\n";
   text += "  </Collection>\n</VTKFile>\n";
 
   replace_file(pvd_, text);
-  entries_ = std::move(entries);
 }
 
 std::vector<SeriesEntry> read_series(const fs::path& pvd)

@@ -57,6 +57,9 @@ public:
   /// itself.
   void add(double time, const std::filesystem::path& file);
 
+  /// Rewrite the .pvd as it stands, or remove it when there are no entries.
+  void write() const;
+
   const std::vector<SeriesEntry>& entries() const { return entries_; }
 
 private:

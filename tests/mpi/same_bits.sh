@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The same bits on 1, 2, 3, 4 and 8 ranks: bonded rocks that break and move across the borders
-# of the ranks, with forced rebuilds and migrations in the middle; and a small coupled pile.
+# of the ranks, with forced rebuilds and migrations in the middle; and a small coupled pile. Each scene is
+# also stopped at an arbitrary step and restarted on another number of ranks, twice (the pile: restart.sh).
 #
 # usage: tests/mpi/same_bits.sh MPI_SCENES MERGEL
 set -euo pipefail
@@ -25,7 +26,11 @@ for scene in block turning periodic; do
     ranks $n "$scenes" "$scene" rebuild rebalance >other 2>errors || fail "$scene on $n ranks: $(cat errors)"
     cmp one other || fail "$scene on $n ranks differs from one"
   done
-  echo "$scene: $(tail -1 one | cut -d' ' -f3-6), the same bits on 1, 2, 3, 4, 8 ranks"
+  ranks 2 "$scenes" "$scene" stop 137 a.h5 >other || fail "$scene, stopped on 2 ranks"
+  ranks 3 "$scenes" "$scene" restart a.h5 stop 263 b.h5 >>other || fail "$scene, restarted on 3 ranks"
+  ranks 1 "$scenes" "$scene" restart b.h5 >>other || fail "$scene, restarted on one rank"
+  cmp one other || fail "$scene: restarts change bits"
+  echo "$scene: $(tail -1 one | cut -d' ' -f3-6), the same bits on 1, 2, 3, 4, 8 ranks and after two restarts"
 done
 
 # Coupled: a small pile until bonds break.

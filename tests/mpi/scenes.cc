@@ -1,20 +1,25 @@
 /// Rocks that break while they move, run for the bits: what this prints must not depend on
 /// the number of ranks.
 ///
-/// usage: mpi_scenes SCENE [rebuild] [rebalance]
+/// usage: mpi_scenes SCENE [rebuild] [rebalance] [restart FILE] [stop STEP FILE]
 ///   block      bonded, free faces, squeezed until bonds break
 ///   turning    the same block, turning and flying across the borders of the ranks
 ///   periodic   a periodic box of bonded and unbonded grains, stirred until bonds break
 ///   rebuild    lists are built at every 7th step besides
 ///   rebalance  grains change ranks at every 50th step, by weights that make no sense;
 ///              doubled histories are compared
+///   restart    go on from this checkpoint, on any number of ranks
+///   stop       write this checkpoint behind this step, and stop
 #include "apps/workloads.h"
 #include "dem/balance.h"
 #include "dem/distribute.h"
+#include "dem/io/checkpoint.h"
+#include "dem/io/rock_state.h"
 #include "dem/random.h"
 
 #include <cinttypes>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -123,13 +128,43 @@ void report(apps::WorkingRock& w, int step)
               e.contacts, e.plastic, e.residue, e.slip, e.damping);
 }
 
-void run(const std::string& name, bool rebuilds, bool rebalances)
+struct Options {
+  bool rebuilds = false, rebalances = false;
+  std::string restart, checkpoint; ///< files
+  int stop = n_steps;
+};
+
+void save(const apps::WorkingRock& w, const std::string& file)
 {
+  State state(w.rock.domain.rank());
+  put(state, w.rock);
+  state.add_common<double>("steps", {w.dt, w.dt_before});
+  write_checkpoint(file, {"test", "scene", "", "", w.n_steps, 0.0}, std::move(state),
+                   w.rock.domain);
+}
+
+void restore(apps::WorkingRock& w, const std::string& file)
+{
+  const Checkpoint c = read_checkpoint(file);
+  take(c.state, w.rock);
+  w.n_steps = c.label.step;
+  w.dt = c.state.get<double>("steps")[0];
+  w.dt_before = c.state.get<double>("steps")[1];
+}
+
+void run(const std::string& name, const Options& o)
+{
+  const bool rebuilds = o.rebuilds, rebalances = o.rebalances;
   apps::WorkingRock w = make(name);
   weaken(w.rock, 1e8);
+  const auto n_before = w.n_steps;
+  if (!o.restart.empty()) restore(w, o.restart);
   share_out(w.rock, MPI_COMM_WORLD);
-  add_forces(w.rock, 0.0);
-  for (int step = 1; step <= n_steps; ++step) {
+  if (o.restart.empty())
+    add_forces(w.rock, 0.0);
+  else
+    rebuild_lists(w.rock);
+  for (int step = static_cast<int>(w.n_steps - n_before) + 1; step <= o.stop; ++step) {
     if (rebuilds && step % 7 == 0) w.rock.list.invalidate();
     if (rebalances && step % 50 == 0)
       rebalance(w.rock, 1.0 + (step / 50 + w.rock.domain.rank()) % 3, true);
@@ -137,6 +172,10 @@ void run(const std::string& name, bool rebuilds, bool rebalances)
     if (step % 40 == 0) report(w, step);
   }
   std::fflush(stdout);
+  if (!o.checkpoint.empty()) {
+    save(w, o.checkpoint);
+    return;
+  }
   const std::size_t broken = w.rock.domain.sum(w.rock.losses.broken);
   if (broken < 20)
     throw std::runtime_error("only " + std::to_string(broken) + " bonds broke");
@@ -148,12 +187,18 @@ int main(int argc, char** argv)
 {
   MPI_Init(&argc, &argv);
   try {
-    bool rebuilds = false, rebalances = false;
+    Options o;
     for (int k = 2; k < argc; ++k) {
-      rebuilds = rebuilds || std::string(argv[k]) == "rebuild";
-      rebalances = rebalances || std::string(argv[k]) == "rebalance";
+      const std::string word = argv[k];
+      o.rebuilds = o.rebuilds || word == "rebuild";
+      o.rebalances = o.rebalances || word == "rebalance";
+      if (word == "restart" && k + 1 < argc) o.restart = argv[++k];
+      if (word == "stop" && k + 2 < argc) {
+        o.stop = std::atoi(argv[++k]);
+        o.checkpoint = argv[++k];
+      }
     }
-    run(argc > 1 ? argv[1] : "", rebuilds, rebalances);
+    run(argc > 1 ? argv[1] : "", o);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "mpi_scenes: %s\n", e.what());
     MPI_Abort(MPI_COMM_WORLD, 1);

@@ -208,3 +208,26 @@ TEST_CASE("A folder that cannot be written is refused before it is used", "[unit
   CHECK_THAT(refusal(folder.path / "results", Earlier::keep),
              Contains("cannot be written: Permission denied"));
 }
+
+TEST_CASE("What a run wrote after its checkpoint is cut back, and nothing else",
+          "[unit][apps]")
+{
+  const Folder folder;
+  for (const char* file :
+       {"history.csv", "resolved.prm", "summary.json", "notes.txt", "damage.png",
+        "checkpoint_000000000100.h5", "checkpoint_000000000200.h5",
+        "checkpoint_000000000300.h5", ".checkpoint_000000000400.partial.h5",
+        "fields/particles_0000.vtp", "fields/particles_0001.vtp",
+        "fields/far_field_0001.vtu", "fields/.bonds_0001.partial.vtp", "fields/mine.vtp"})
+    touch(folder.path / file);
+  const OutputFolder out(folder.path, Earlier::go_on);
+  out.check();
+  out.commit();
+  CHECK(tree(folder.path).size() == 15); // with fields itself
+  out.cut_back(1, 200);
+  CHECK(tree(folder.path) ==
+        std::vector<std::string>{"checkpoint_000000000100.h5", "checkpoint_000000000200.h5",
+                                 "damage.png", "fields", "fields/mine.vtp",
+                                 "fields/particles_0000.vtp", "history.csv", "notes.txt",
+                                 "resolved.prm"});
+}

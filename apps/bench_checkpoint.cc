@@ -1,0 +1,50 @@
+#include "apps/bench_checkpoint.h"
+
+#include "dem/distribute.h"
+#include "dem/io/checkpoint.h"
+#include "dem/io/rock_state.h"
+
+#include <iostream>
+
+namespace mergel::apps {
+
+void measure_checkpoint(const WorkloadSpec& spec, const std::filesystem::path& file)
+{
+  WorkingRock w = make_workload(spec);
+  dem::share_out(w.rock, MPI_COMM_WORLD);
+  dem::add_forces(w.rock, 0.0);
+  for (int k = 0; k < 20; ++k) w.step();
+  const dem::Domain& domain = w.rock.domain;
+  const double n = static_cast<double>(w.rock.particles.size());
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    domain.sum(0); // together
+    const double start = dem::wall_clock();
+    dem::State state(domain.rank());
+    dem::put(state, w.rock);
+    const double put = dem::wall_clock();
+    dem::write_checkpoint(file, {MERGEL_VERSION, "bench", "workload", "", w.n_steps, 0.0},
+                          std::move(state), domain);
+    const double written = dem::wall_clock();
+    const dem::Checkpoint c = dem::read_checkpoint(file);
+    const double read = dem::wall_clock();
+    dem::take(c.state, w.rock);
+    const double taken = dem::wall_clock();
+    dem::share_out(w.rock, MPI_COMM_WORLD);
+    dem::rebuild_lists(w.rock);
+    const double shared = dem::wall_clock();
+    const auto bytes = static_cast<double>(std::filesystem::file_size(file));
+    double n_pairs = 0.0; // that have a history
+    for (const char* pairs : {"bond_pairs", "contact_pairs"})
+      n_pairs += static_cast<double>(c.state.arrays().at(pairs).rows());
+    std::cout << "checkpoint of " << n << " particles and " << n_pairs
+              << " pairs: " << 1e-6 * bytes << " MB, " << bytes / n << " bytes a particle, "
+              << bytes / (n + n_pairs) << " a particle and pair; write "
+              << domain.greatest(written - start) << " s (" << domain.greatest(put - start)
+              << " s to put together), read " << domain.greatest(taken - written) << " s ("
+              << domain.greatest(read - written)
+              << " s from the disk), sharing out and lists "
+              << domain.greatest(shared - taken) << " s\n";
+  }
+}
+
+} // namespace mergel::apps

@@ -1,0 +1,151 @@
+#include "apps/keeper.h"
+
+#include "apps/progress.h"
+#include "apps/units.h"
+#include "apps/words.h"
+#include "dem/io/history.h"
+#include "dem/step.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace mergel::apps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Steps between two looks at clock and signals: a look is one global reduction, and a step
+/// has several.
+constexpr std::uint64_t steps_between_looks = 10;
+
+constexpr std::size_t n_kept = 2;
+
+/// Before the end of the walltime: this, and twice what a checkpoint and a look have taken.
+constexpr double margin = 2.0; // [s]
+
+} // namespace
+
+Cadence to_cadence(const std::string& text)
+{
+  Cadence every;
+  if (text == "never") return every;
+  const std::string unit = " steps";
+  if (text.ends_with(unit)) {
+    const char *begin = text.data(), *end = begin + text.size() - unit.size();
+    const auto [at, error] = std::from_chars(begin, end, every.steps);
+    if (error != std::errc{} || at != end || every.steps == 0)
+      throw InputError("must be a whole number of steps, at least 1; expected for example "
+                       "\"5000 steps\"");
+    return every;
+  }
+  try {
+    every.seconds = to_si(text, "s");
+  } catch (const InputError&) {
+    throw InputError("must be a time, a number of steps or never; expected for example "
+                     "\"10 min\" or \"5000 steps\"");
+  }
+  if (every.seconds <= 0.0) throw InputError("must be above 0 s; or write never");
+  return every;
+}
+
+double to_walltime(const std::string& text)
+{
+  const InputError wrong(
+      "mergel: --walltime " + text +
+      ": is no time above 0; expected for example \"4 h\", \"30 min\" or "
+      "\"4:00:00\"");
+  double seconds = 0.0;
+  if (text.find(':') == std::string::npos) {
+    try {
+      seconds = to_si(text, "s");
+    } catch (const InputError&) {
+      throw wrong;
+    }
+  } else {
+    const char *at = text.data(), *const end = at + text.size();
+    for (int n_parts = 1;; ++n_parts, ++at) { // [[hours:]minutes:]seconds
+      unsigned part = 0;
+      const auto read = std::from_chars(at, end, part);
+      if (read.ec != std::errc{} || n_parts > 3) throw wrong;
+      seconds = 60.0 * seconds + part;
+      at = read.ptr;
+      if (at == end) break;
+      if (*at != ':') throw wrong;
+    }
+  }
+  if (seconds <= 0.0) throw wrong;
+  return seconds;
+}
+
+Keeper::Keeper(KeeperSpec spec)
+    : spec_(std::move(spec)), last_(spec_.restarted_from), written_(dem::wall_clock()),
+      asked_(written_)
+{
+}
+
+Keeper::Wish Keeper::wish_here(const dem::Domain& domain, const Position& at)
+{
+  if (signals_.wants_stop()) return stop;
+  const double now = dem::wall_clock();
+  between_ = std::max(between_, now - asked_);
+  asked_ = now;
+  // Clocks differ: the first rank's counts.
+  if (domain.rank() == 0 && now + margin + 2.0 * (longest_ + between_) > spec_.end)
+    return stop_in_time;
+  const bool is_due = domain.rank() == 0 && now - written_ >= spec_.every.seconds;
+  const bool is_at_step = spec_.every.steps > 0 && at.step % spec_.every.steps == 0;
+  return is_due || is_at_step || signals_.wants_checkpoint() ? write : none;
+}
+
+void Keeper::after_step(const dem::Domain& domain, const Position& at,
+                        const std::function<void(dem::State&)>& put)
+{
+  const bool is_at_step = spec_.every.steps > 0 && at.step % spec_.every.steps == 0;
+  if (!is_at_step && at.step % steps_between_looks != 0) return;
+  const auto wish = static_cast<Wish>(
+      static_cast<int>(domain.greatest(static_cast<double>(wish_here(domain, at)))));
+  if (wish == none) return;
+  write_now(domain, at, put);
+  if (wish == write) return;
+  throw Stopped(std::string(wish == stop ? "stopped by SIGTERM"
+                                         : "stopped before the end of --walltime") +
+                " at step " + std::to_string(at.step) + ", t = " + dem::shortest(at.time) +
+                " s (" + at.stage + "), checkpoint " + last_.string() + ". " +
+                how_to_continue());
+}
+
+void Keeper::write_now(const dem::Domain& domain, const Position& at,
+                       const std::function<void(dem::State&)>& put)
+{
+  const double start = dem::wall_clock();
+  dem::State mine(domain.rank());
+  const fs::path file = spec_.folder / dem::checkpoint_name(at.step);
+  try {
+    put(mine);
+    dem::write_checkpoint(
+        file, {MERGEL_VERSION, spec_.job, at.stage, spec_.case_text, at.step, at.time},
+        std::move(mine), domain);
+  } catch (const CollectiveFailure& e) {
+    throw CollectiveFailure(e.what() + remedy());
+  }
+  if (domain.rank() == 0) dem::keep_newest(spec_.folder, n_kept);
+  last_ = file;
+  signals_.checkpointed();
+  asked_ = written_ = dem::wall_clock();
+  longest_ = std::max(longest_, written_ - start);
+  ++n_written_;
+}
+
+std::string Keeper::how_to_continue() const
+{
+  return "Continue with: mergel " + spec_.job + " --restart " + spec_.folder.string();
+}
+
+std::string Keeper::remedy() const
+{
+  if (last_.empty()) return "; there is no checkpoint yet";
+  return "; the last good checkpoint is " + last_.string() + ". " + how_to_continue();
+}
+
+} // namespace mergel::apps

@@ -1,0 +1,50 @@
+/// --restart: finding the checkpoint, and comparing its case with the one that is to go on.
+#pragma once
+
+#include "apps/case_file.h"
+#include "apps/jobs.h"
+#include "apps/output_folder.h"
+#include "dem/io/checkpoint.h"
+
+#include <optional>
+
+namespace mergel::apps {
+
+/// What a run goes on from.
+struct Restart {
+  std::filesystem::path file;   ///< the checkpoint
+  std::filesystem::path folder; ///< results of the earlier run: where the file is
+  dem::Checkpoint checkpoint;
+  std::vector<std::string> refused; ///< newer checkpoints that cannot be read, and why
+};
+
+/// The checkpoint at `place`: the file, or the newest good one of a folder. Nothing when
+/// `place` is empty, or a folder without checkpoints: then the run begins.
+/// @throws InputError when what is there cannot be read, naming an older good one beside
+///   it; when it is of another job
+std::optional<Restart> find_restart(const std::filesystem::path& place,
+                                    const std::string& job);
+
+/// The results folder that --restart names: a folder, or where a checkpoint lies.
+std::filesystem::path folder_to_restart(const std::filesystem::path& place);
+
+/// Read the case that goes on: of the options, else of the checkpoint, else resolved.prm of
+/// the folder that is to be restarted.
+void read_case(CaseFile& file, const JobOptions& options,
+               const std::optional<Restart>& restart);
+
+/// Compare the case with that of the checkpoint. Returns the changed ones of the keys
+/// `free`, "Section/key".
+/// @throws InputError naming another key that has changed: "was X, the case asks for Y"
+std::vector<CaseFile::Change> check_case(const CaseFile& file, const Restart& restart,
+                                         const std::vector<std::string>& free);
+
+/// For a job that is done so soon that it begins again: the folder of an earlier run in
+/// which it does so may be used.
+OutputFolder folder_to_begin_in(const JobOptions& options);
+
+/// What the user should know: where the run goes on, what could not be read, what has
+/// changed.
+std::string report(const Restart& restart, const std::vector<CaseFile::Change>& changed);
+
+} // namespace mergel::apps

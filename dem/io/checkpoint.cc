@@ -1,0 +1,95 @@
+#include "dem/io/checkpoint.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <regex>
+#include <system_error>
+
+namespace mergel::dem {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int version = 1;
+const std::string kind = "checkpoint";
+
+} // namespace
+
+std::string checkpoint_name(std::uint64_t step)
+{
+  char name[48];
+  std::snprintf(name, sizeof name, "checkpoint_%012llu.h5",
+                static_cast<unsigned long long>(step));
+  return name;
+}
+
+bool is_checkpoint_name(const fs::path& name)
+{
+  static const std::regex form("checkpoint_[0-9]{12,}\\.h5");
+  return std::regex_match(name.string(), form);
+}
+
+void write_checkpoint(const fs::path& file, const CheckpointLabel& label, State mine,
+                      const Domain& domain)
+{
+  mine.add_text("label_program", label.program);
+  mine.add_text("label_job", label.job);
+  mine.add_text("label_stage", label.stage);
+  mine.add_text("label_case", label.case_text);
+  mine.add_common<std::uint64_t>("label_step", {label.step});
+  mine.add_common<double>("label_time", {label.time});
+  write_state(file, kind, version, mine, domain);
+}
+
+Checkpoint read_checkpoint(const fs::path& file)
+{
+  Checkpoint c;
+  c.state = read_state(file, kind, version);
+  c.label = {c.state.text("label_program"),
+             c.state.text("label_job"),
+             c.state.text("label_stage"),
+             c.state.text("label_case"),
+             c.state.get_rows<std::uint64_t>("label_step", 1).front(),
+             c.state.get_rows<double>("label_time", 1).front()};
+  return c;
+}
+
+std::vector<fs::path> checkpoints_in(const fs::path& folder)
+{
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (is_checkpoint_name(entry->path().filename())) found.push_back(entry->path());
+  const auto newer = [](const fs::path& a, const fs::path& b) {
+    const std::string x = a.filename().string(), y = b.filename().string();
+    return x.size() != y.size() ? x.size() > y.size() : x > y;
+  };
+  std::sort(found.begin(), found.end(), newer);
+  return found;
+}
+
+void keep_newest(const fs::path& folder, std::size_t n)
+{
+  const std::vector<fs::path> found = checkpoints_in(folder);
+  std::error_code ignored;
+  for (std::size_t k = n; k < found.size(); ++k) fs::remove(found[k], ignored);
+}
+
+FoundCheckpoint newest_checkpoint(const fs::path& folder)
+{
+  FoundCheckpoint found;
+  for (const fs::path& file : checkpoints_in(folder)) {
+    try {
+      found.checkpoint = read_checkpoint(file);
+      found.file = file;
+      break;
+    } catch (const InputError& e) {
+      found.refused.push_back(file.string() + ": " + e.what());
+    }
+  }
+  return found;
+}
+
+} // namespace mergel::dem

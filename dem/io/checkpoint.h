@@ -1,0 +1,51 @@
+/// Checkpoints of a run: what it is, and its state, in a file of its own.
+#pragma once
+
+#include "dem/io/state_file.h"
+
+namespace mergel::dem {
+
+/// What a checkpoint says of itself.
+struct CheckpointLabel {
+  std::string program;    ///< version that wrote it
+  std::string job;        ///< "pile"
+  std::string stage;      ///< of the job, in words
+  std::string case_text;  ///< the complete case
+  std::uint64_t step = 0; ///< since the start of the run
+  double time = 0.0;      ///< since then [s]
+};
+
+struct Checkpoint {
+  CheckpointLabel label;
+  State state;
+};
+
+/// Name of the checkpoint of this step in its folder: names ascend with steps.
+std::string checkpoint_name(std::uint64_t step);
+/// True for a name that checkpoint_name() gives.
+bool is_checkpoint_name(const std::filesystem::path& name);
+
+/// Write `mine`, each rank its part, and the label; see write_state().
+void write_checkpoint(const std::filesystem::path& file, const CheckpointLabel& label,
+                      State mine, const Domain& domain);
+
+/// Needs no MPI. @throws InputError as read_state()
+Checkpoint read_checkpoint(const std::filesystem::path& file);
+
+/// The checkpoints of a folder, the newest first; none of a folder that is not there.
+std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder);
+
+/// Remove all but the newest `n` of a folder. What cannot be removed stays.
+void keep_newest(const std::filesystem::path& folder, std::size_t n);
+
+/// A checkpoint that can be read, and why newer ones of its folder cannot.
+struct FoundCheckpoint {
+  std::filesystem::path file; ///< empty: none can be read
+  Checkpoint checkpoint;
+  std::vector<std::string> refused; ///< "<file>: <reason>", the newest first
+};
+
+/// The newest of a folder that can be read.
+FoundCheckpoint newest_checkpoint(const std::filesystem::path& folder);
+
+} // namespace mergel::dem

@@ -1,0 +1,95 @@
+/// HDF5 in the small: handles that close themselves, arrays, attributes.
+#pragma once
+
+#include "dem/error.h"
+
+#include <hdf5.h>
+
+#include <string>
+#include <vector>
+
+namespace mergel::dem::hdf5 {
+
+/// A handle with its own way to close.
+class Handle {
+public:
+  Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close)
+  {
+    if (id_ < 0) throw NumericalError("HDF5 cannot " + what);
+  }
+  ~Handle()
+  {
+    if (id_ >= 0) close_(id_);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }
+
+  /// Close now and notice a failure, such as a full disk.
+  void finish(const std::string& what)
+  {
+    const herr_t status = close_(id_);
+    id_ = -1;
+    if (status < 0) throw NumericalError("HDF5 cannot " + what);
+  }
+
+private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// HDF5 prints its own stack of errors unless told not to, and at exit a complaint about
+/// each damaged file that it could not close. Every handle here closes itself.
+class Quiet {
+public:
+  Quiet()
+  {
+    H5dont_atexit();
+    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+private:
+  H5E_auto2_t function_ = nullptr;
+  void* data_ = nullptr;
+};
+
+/// Rows and columns of an array; one column is an array of one dimension.
+struct Shape {
+  hsize_t rows = 0, columns = 1;
+};
+
+/// All below throw NumericalError, naming what HDF5 cannot do.
+
+/// A new array of this shape, to be written.
+Handle create_array(hid_t file, const std::string& name, hid_t type, const Shape& shape,
+                    hid_t creation = H5P_DEFAULT);
+
+void write_array(hid_t file, const std::string& name, hid_t type, const void* data,
+                 const Shape& shape);
+
+/// Shape of an array whose data are all there: a changed size must not ask for more memory
+/// than the file can fill.
+Shape shape_of(hid_t array, const std::string& name, std::size_t size_of_number);
+
+void read_into(hid_t array, const std::string& name, hid_t type, void* data);
+
+template <class T>
+std::vector<T> read_array(hid_t file, const std::string& name, hid_t type, hsize_t columns)
+{
+  const Handle array(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "find " + name);
+  const Shape shape = shape_of(array, name, sizeof(T));
+  if (shape.columns != columns) throw NumericalError("the shape is wrong of " + name);
+  std::vector<T> data(shape.rows * columns);
+  if (!data.empty()) read_into(array, name, type, data.data());
+  return data;
+}
+
+void write_attribute(hid_t file, const std::string& name, hid_t type, const void* value);
+void read_attribute(hid_t file, const std::string& name, hid_t type, void* value);
+void write_text_attribute(hid_t file, const std::string& name, const std::string& text);
+
+} // namespace mergel::dem::hdf5

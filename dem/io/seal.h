@@ -1,0 +1,38 @@
+/// A mark and a sum of all bytes behind the data of a file, so that a changed, cut or
+/// foreign file is told before HDF5 sees it: HDF5 does not survive every damaged file, and
+/// does not look beyond its own data.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace mergel::dem {
+
+/// Fowler, Noll, Vo (1991): one product a byte.
+std::uint64_t fnv_1a(std::string_view bytes, std::uint64_t start = 0xcbf29ce484222325u);
+
+/// The same by words of eight bytes, the last filled up with zeros and the length added;
+/// the upper half of each sum is folded into the lower, or two flipped signs would cancel.
+std::uint64_t sum_of_words(std::string_view bytes);
+
+/// 16 hexadecimal digits.
+std::string hexadecimal(std::uint64_t number);
+
+struct Seal {
+  std::string kind;   ///< "sample"
+  std::string sum;    ///< name of the sum, as the mark tells it
+  std::string remedy; ///< "make it again with `mergel sample`"
+  std::uint64_t (*of)(std::string_view bytes);
+};
+
+/// Append the seal. @throws NumericalError
+void seal(const std::filesystem::path& file, const Seal& seal);
+
+/// The data of a sealed file, the seal taken off.
+/// @throws InputError, without the file's name, when there is no such file, it was not
+///   sealed so, or was changed since
+std::string unsealed(const std::filesystem::path& file, const Seal& seal);
+
+} // namespace mergel::dem

@@ -1,0 +1,318 @@
+#include "dem/io/state_file.h"
+
+#include "dem/io/atomic_file.h"
+#include "dem/io/hdf5.h"
+#include "dem/io/seal.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace mergel::dem {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+template <class T>
+hid_t type_of()
+{
+  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_NATIVE_UINT64;
+  if constexpr (std::is_same_v<T, std::uint32_t>) return H5T_NATIVE_UINT32;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
+  if constexpr (std::is_same_v<T, std::int16_t>) return H5T_NATIVE_INT16;
+  if constexpr (std::is_same_v<T, char>) return H5T_NATIVE_CHAR;
+}
+
+Seal seal_of(const std::string& kind)
+{
+  return {kind, "64-bit sum", "take an older one", sum_of_words};
+}
+
+/// Every rank calls it with what went wrong there, "" for nothing; all throw the first.
+void agree(const Domain& domain, const std::string& wrong)
+{
+  const std::vector<char> all = domain.gather(std::vector<char>(
+      wrong.c_str(), wrong.c_str() + wrong.size() + (wrong.empty() ? 0 : 1)));
+  if (!all.empty()) throw CollectiveFailure(all.data());
+}
+
+/// Call f on this rank; all ranks throw when it failed on one.
+template <class F>
+void all_or_none(const Domain& domain, F&& f)
+{
+  std::string wrong;
+  try {
+    f();
+  } catch (const std::exception& e) {
+    wrong = e.what();
+    if (wrong.empty()) wrong = "unknown failure";
+  }
+  agree(domain, wrong);
+}
+
+[[noreturn]] void fail(const fs::path& file)
+{
+  throw NumericalError(file.string() +
+                       ": cannot be written: " + std::generic_category().message(errno));
+}
+
+/// An open file that is closed on every way out.
+class Descriptor {
+public:
+  Descriptor(const fs::path& path, const fs::path& file)
+      : file_(file), number_(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666))
+  {
+    if (number_ < 0) fail(file_);
+  }
+  ~Descriptor() { ::close(number_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  /// Refuse at once what the disk has no room for: then nothing need be written.
+  void require_room(std::size_t bytes)
+  {
+    if (::fallocate(number_, 0, 0, static_cast<off_t>(bytes)) != 0 &&
+        (errno == ENOSPC || errno == EFBIG || errno == EDQUOT))
+      fail(file_);
+  }
+  void write(const char* from, std::size_t bytes, std::uint64_t at)
+  {
+    while (bytes > 0) {
+      const ssize_t written = ::pwrite(number_, from, bytes, static_cast<off_t>(at));
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(file_);
+      from += written;
+      bytes -= static_cast<std::size_t>(written);
+      at += static_cast<std::uint64_t>(written);
+    }
+  }
+  void flush()
+  {
+    if (::fsync(number_) != 0 && errno != EINVAL) fail(file_); // EINVAL: cannot be flushed
+  }
+
+private:
+  const fs::path file_;
+  int number_;
+};
+
+constexpr std::size_t room_for_descriptions = 65536;
+
+/// Describe the arrays, of so many rows each; returns where the rows of each begin.
+std::vector<std::uint64_t> lay_out(const fs::path& path, const std::string& kind,
+                                   int version, const State& state,
+                                   const std::vector<std::uint64_t>& rows)
+{
+  using namespace hdf5;
+  const Quiet quiet;
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+              "create " + path.string());
+  write_text_attribute(file, "format", "mergel " + kind);
+  write_attribute(file, "version", H5T_NATIVE_INT, &version);
+  const Handle early(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "choose a layout");
+  H5Pset_layout(early, H5D_CONTIGUOUS);
+  H5Pset_alloc_time(early, H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(early, H5D_FILL_TIME_NEVER);
+
+  std::vector<std::uint64_t> begin;
+  for (const auto& [name, array] : state.arrays()) {
+    const hid_t type = std::visit(
+        [](const auto& v) {
+          return type_of<typename std::decay_t<decltype(v)>::value_type>();
+        },
+        array.values);
+    Handle set = create_array(file, name, type, {rows[begin.size()], array.columns}, early);
+    const haddr_t offset = H5Dget_offset(set);
+    if (offset == HADDR_UNDEF && rows[begin.size()] > 0)
+      throw NumericalError("HDF5 cannot tell the place of " + name);
+    begin.push_back(offset == HADDR_UNDEF ? 0 : offset);
+    set.finish("write " + name);
+  }
+  file.finish("write " + path.string());
+  return begin;
+}
+
+bool is_finite(const std::vector<double>& values)
+{
+  return std::all_of(values.begin(), values.end(),
+                     [](double a) { return std::isfinite(a); });
+}
+
+template <class T>
+StateArray read_one(hid_t array, const std::string& name)
+{
+  const hdf5::Shape shape = hdf5::shape_of(array, name, sizeof(T));
+  std::vector<T> values(shape.rows * shape.columns);
+  if (!values.empty()) hdf5::read_into(array, name, type_of<T>(), values.data());
+  if constexpr (std::is_same_v<T, double>)
+    if (!is_finite(values)) throw NumericalError(name + " holds what is not a number");
+  return {std::move(values), shape.columns};
+}
+
+StateArray read_any(hid_t file, const std::string& name)
+{
+  using namespace hdf5;
+  const Handle array(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open " + name);
+  const Handle type(H5Dget_type(array), H5Tclose, "tell the type of " + name);
+  const auto is = [&](hid_t native) { return H5Tequal(type, native) > 0; };
+  if (is(H5T_NATIVE_DOUBLE)) return read_one<double>(array, name);
+  if (is(H5T_NATIVE_UINT64)) return read_one<std::uint64_t>(array, name);
+  if (is(H5T_NATIVE_UINT32)) return read_one<std::uint32_t>(array, name);
+  if (is(H5T_NATIVE_INT32)) return read_one<std::int32_t>(array, name);
+  if (is(H5T_NATIVE_INT16)) return read_one<std::int16_t>(array, name);
+  if (is(H5T_NATIVE_CHAR)) return read_one<char>(array, name);
+  throw NumericalError("the type is wrong of " + name);
+}
+
+herr_t add_name(hid_t, const char* name, const H5L_info_t*, void* names)
+{
+  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  return 0;
+}
+
+std::string read_format(hid_t file)
+{
+  using namespace hdf5;
+  const Handle a(H5Aopen(file, "format", H5P_DEFAULT), H5Aclose, "find its format");
+  const Handle type(H5Aget_type(a), H5Tclose, "read its format");
+  const std::size_t size = H5Tget_size(type);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || size == 0 ||
+      size > 1000)
+    throw NumericalError("its format has no name");
+  std::string text(size, '\0');
+  if (H5Aread(a, type, text.data()) < 0)
+    throw NumericalError("HDF5 cannot read its format");
+  return text.c_str();
+}
+
+} // namespace
+
+void State::refuse(const std::string& name, const std::string& why)
+{
+  throw InputError("does not fit this program or case: its array " + name + " " + why);
+}
+
+const StateArray& State::find(const std::string& name) const
+{
+  const auto found = arrays_.find(name);
+  if (found == arrays_.end()) refuse(name, "is missing");
+  return found->second;
+}
+
+void write_state(const fs::path& file, const std::string& kind, int version,
+                 const State& mine, const Domain& domain)
+{
+  all_or_none(domain, [&] {
+    for (const auto& [name, array] : mine.arrays())
+      if (const auto* values = std::get_if<std::vector<double>>(&array.values);
+          values && !is_finite(*values))
+        throw NumericalError("the state holds what is not a number (" + name +
+                             "): the run is unstable, and " + file.string() +
+                             " was not written");
+  });
+  const std::size_t n = mine.arrays().size();
+  std::vector<std::uint64_t> my_rows;
+  for (const auto& [name, array] : mine.arrays()) my_rows.push_back(array.rows());
+  const std::vector<std::uint64_t> rows_by_rank = domain.gather(my_rows);
+  std::vector<std::uint64_t> rows(n, 0), before(n, 0);
+  std::size_t bytes = room_for_descriptions;
+  for (std::size_t k = 0; k < rows_by_rank.size(); ++k) {
+    rows[k % n] += rows_by_rank[k];
+    if (k / n < static_cast<std::size_t>(domain.rank())) before[k % n] += rows_by_rank[k];
+  }
+  std::size_t place = 0;
+  for (const auto& [name, array] : mine.arrays())
+    bytes += rows[place++] * array.columns *
+             std::visit([](const auto& v) { return sizeof(v[0]); }, array.values);
+
+  const auto write = [&](const fs::path& path) {
+    std::vector<std::uint64_t> begin;
+    all_or_none(domain, [&] {
+      if (domain.rank() != 0) return;
+      fs::remove(path); // of a run that was killed
+      Descriptor(path, file).require_room(bytes);
+      begin = lay_out(path, kind, version, mine, rows);
+    });
+    begin = domain.gather(begin);
+    all_or_none(domain, [&] {
+      Descriptor out(path, file);
+      std::size_t k = 0;
+      for (const auto& [name, array] : mine.arrays()) {
+        std::visit(
+            [&](const auto& v) {
+              const std::size_t size = sizeof(v[0]);
+              out.write(reinterpret_cast<const char*>(v.data()), size * v.size(),
+                        begin[k] + before[k] * array.columns * size);
+            },
+            array.values);
+        ++k;
+      }
+      if (!domain.is_alone()) out.flush();
+    });
+    all_or_none(domain, [&] {
+      if (domain.rank() == 0) seal(path, seal_of(kind));
+    });
+  };
+  if (domain.rank() != 0) {
+    write(temporary_name(file));
+    agree(domain, "");
+    return;
+  }
+  std::string wrong;
+  try {
+    replace_file(file, write);
+  } catch (const CollectiveFailure&) {
+    throw; // the others know
+  } catch (const std::exception& e) {
+    wrong = e.what();
+  }
+  agree(domain, wrong);
+}
+
+State read_state(const fs::path& path, const std::string& kind, int version)
+{
+  using namespace hdf5;
+  const Quiet quiet;
+  const Seal seal = seal_of(kind);
+  std::string bytes = unsealed(path, seal);
+  State state;
+  try {
+    // From memory: what is read is what was summed. HDF5 wants a name that no file has.
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "choose an access");
+    H5Pset_fapl_core(access, 1 << 20, false);
+    H5Pset_file_image(access, bytes.data(), bytes.size());
+    const Handle file(H5Fopen((path / "in memory").c_str(), H5F_ACC_RDONLY, access),
+                      H5Fclose, "open it");
+    bytes = {};
+    if (const std::string format = read_format(file); format != "mergel " + kind)
+      throw InputError("is a " + format + ", no mergel " + kind);
+    int found = 0;
+    read_attribute(file, "version", H5T_NATIVE_INT, &found);
+    if (found != version)
+      throw InputError(
+          "has " + kind + " format " + std::to_string(found) +
+          (found > version ? ", newer than the " : ", older than the ") +
+          std::to_string(version) +
+          " that this program reads; continue it with the program that wrote it");
+    std::vector<std::string> names;
+    if (H5Literate(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name, &names) < 0)
+      throw NumericalError("HDF5 cannot list its arrays");
+    for (const std::string& name : names) {
+      StateArray array = read_any(file, name);
+      std::visit([&](auto& v) { state.add(name, std::move(v), array.columns); },
+                 array.values);
+    }
+  } catch (const NumericalError& e) {
+    throw InputError(std::string("is damaged (") + e.what() + "); " + seal.remedy);
+  }
+  return state;
+}
+
+} // namespace mergel::dem

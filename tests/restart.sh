@@ -1,0 +1,126 @@
+#!/usr/bin/env bash
+# Checkpoints of a small coupled pile as its user meets them: stopped by SIGTERM on two ranks,
+# restarted on one and three with the same bits; SIGUSR1; --walltime; a full disk; a damaged
+# newest checkpoint; a changed case; mergel info.
+#
+# usage: tests/restart.sh MERGEL
+set -euo pipefail
+root=$(dirname "$(dirname "$(readlink -f "$0")")")
+mergel=$(readlink -f "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
+
+fail() { echo "FAILED: $*"; exit 1; }
+tiny=(--set "Specimen/diameter=6 mm" --set "Specimen/height=6 mm" --set "Specimen/inner upscaling=5"
+  --set "Specimen/outer radius=3 mm" --set "Far field/chamber diameter=12 mm"
+  --set "Far field/chamber height=12 mm" --set "Output/frames=2" --set "Motion/balance=1e-2"
+  --set "Pile/cone angle=120 degree" --set "Pile/final depth=0.15 mm")
+case_file=$root/apps/cases/pile_small.prm
+pile() { timeout 300 "$mergel" pile "$@"; }
+ranks() { local n=$1; shift; timeout 300 mpirun --oversubscribe -n "$n" "$mergel" pile "$@"; }
+checkpoints() { ls "$1"/checkpoint_*.h5 2>/dev/null | wc -l; }
+wait_for() { # until a file of this pattern is there
+  for _ in $(seq 3000); do compgen -G "$1" >/dev/null && return; sleep 0.05; done
+  fail "$1 never came: $(tail -3 log)"
+}
+same() {
+  cmp whole/history.csv "$1/history.csv" || fail "$1: the history differs"
+  for file in whole/fields/*; do cmp "$file" "$1/${file#whole/}" || fail "$1: $file differs"; done
+}
+code_of() { local code=0; "$@" >log 2>&1 || code=$?; echo "$code"; }
+
+pile "$case_file" "${tiny[@]}" --output whole >log || fail "the whole run: $(tail -3 log)"
+[ "$(checkpoints whole)" -eq 0 ] || fail "a checkpoint before 10 min"
+cp whole/sample.h5 .
+tiny+=(--set "Specimen/file=$work/sample.h5")
+
+# SIGTERM to one of two ranks, while the rock settles.
+timeout 300 mpirun --oversubscribe -n 2 "$mergel" pile "$case_file" "${tiny[@]}" --output a \
+  --set "Output/checkpoint every=20 steps" >log 2>&1 &
+launched=$!
+wait_for "a/checkpoint_*.h5"
+kill -TERM "$(pgrep -P "$(pgrep -P $launched mpirun)" mergel | tail -1)"
+code=0; wait $launched || code=$?
+[ "$code" -eq 2 ] || fail "SIGTERM on two ranks: exit code $code: $(tail -3 log)"
+[ "$(grep -c 'stopped by SIGTERM at step .*(settling), checkpoint a/checkpoint_' log)" -eq 1 ] ||
+  fail "SIGTERM on two ranks: $(tail -3 log)"
+grep -q 'Continue with: mergel pile --restart a$' log || fail "how to continue: $(tail -3 log)"
+[ "$(checkpoints a)" -le 2 ] || fail "$(checkpoints a) checkpoints are kept, not two"
+# Restarted on three ranks without a case file; SIGUSR1 asks for a checkpoint and the run goes on,
+# then SIGTERM while it is driven.
+timeout 300 mpirun --oversubscribe -n 3 "$mergel" pile --restart a --set "Output/checkpoint every=never" >log 2>&1 &
+launched=$!
+wait_for "a/fields/particles_0000.vtp"
+first=$(pgrep -P "$(pgrep -P $launched mpirun)" mergel | head -1)
+rm a/checkpoint_*.h5
+kill -USR1 "$first"
+wait_for "a/checkpoint_*.h5"
+kill -TERM "$first"
+code=0; wait $launched || code=$?
+[ "$code" -eq 2 ] || fail "SIGTERM on three ranks: exit code $code: $(tail -3 log)"
+grep -q '(driving), checkpoint a/' log || fail "not driven: $(tail -3 log)"
+"$mergel" info a >info || fail "info: $(cat info)"
+grep -q 'not finished' info && grep -q 'driving, step .* good' info || fail "info: $(cat info)"
+pile --restart a >log || fail "the end on one rank: $(tail -3 log)"
+same a
+
+# The walltime ends a run; a run into another folder begins with what the first one wrote.
+[ "$(code_of pile "$case_file" "${tiny[@]}" --output b --walltime "1 s")" -eq 2 ] || fail "walltime: $(tail -3 log)"
+grep -q 'stopped before the end of --walltime' log || fail "walltime: $(tail -3 log)"
+pile --restart b --output c >log || fail "another folder: $(tail -3 log)"
+same c
+[ -e b/checkpoint_*.h5 ] || fail "a restart into another folder changed the first"
+
+# A full disk, as a file-size limit: no file can be written, then none as large as a checkpoint. The
+# limit is that of the ranks; their own shared memory is kept out of its way.
+limited() { # blocks of 1024 bytes
+  PMIX_MCA_gds=hash OMPI_MCA_btl=self,tcp timeout 300 mpirun --oversubscribe -n 2 \
+    bash -c 'ulimit -f "$1"; shift; exec "$@"' limited "$1" "$mergel" pile "${@:2}"
+}
+for blocks in 8 150; do
+  rm -rf d; cp -r b d
+  held=$(ls d/checkpoint_*.h5)
+  cp "$held" held.h5; cp d/history.csv held.csv
+  code=$(code_of limited $blocks --restart d --set "Output/checkpoint every=20 steps")
+  [ "$code" -eq 2 ] || fail "a file-size limit of $blocks kB: exit code $code: $(cat log)"
+  cmp "$held" held.h5 || fail "the last good checkpoint was touched"
+  if [ "$blocks" -eq 150 ]; then
+    grep -q 'checkpoint_.*cannot be written: File too large.*the last good checkpoint is d/checkpoint_' log ||
+      fail "a full disk: $(cat log)"
+    [ "$(grep -c 'cannot be written' log)" -eq 1 ] || fail "a full disk is told more than once: $(cat log)"
+    grep -q HDF5-DIAG log && fail "HDF5 speaks: $(cat log)"
+    cmp held.csv d/history.csv || fail "the history was touched"
+    [ -z "$(find d -name '.*partial*')" ] || fail "left over: $(find d -name '.*partial*')"
+  fi
+  "$mergel" info d >info || fail "after a full disk: $(cat info)"
+done
+pile --restart d >log || fail "after a full disk: $(tail -3 log)"
+same d
+
+# A damaged newest checkpoint is told, and the older one taken.
+rm -rf e; cp -r b e
+older=$(basename "$(ls e/checkpoint_*.h5)")
+head -c 20000 "e/$older" >e/checkpoint_999999999999.h5
+[ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q 'truncated' log || fail "info of a damaged one: $(cat log)"
+[ "$(code_of pile --restart e/checkpoint_999999999999.h5)" -eq 1 ] || fail "a damaged one: $(cat log)"
+grep -q "is no checkpoint, or is truncated; .*a good one is e/$older" log || fail "a damaged one: $(cat log)"
+# Cut by a run that went on: what the checkpoint does not know is dropped.
+printf '1,2,3\n4,5' >>e/history.csv
+# A changed case is refused by its key, what concerns output may change.
+[ "$(code_of pile "$case_file" "${tiny[@]}" --restart e --set "Pile/friction=0.3")" -eq 1 ] || fail "a changed case"
+grep -q 'Pile/friction was 0.2, the case asks for 0.3' log || fail "a changed case: $(cat log)"
+pile --restart e --set "Output/frames=1" >log || fail "a changed number of frames: $(tail -3 log)"
+grep -q "cannot be used: e/checkpoint_999999999999.h5: is no checkpoint" log || fail "the damaged one is not told: $(cat log)"
+grep -q 'Output/frames was 2, is now 1' log || fail "the change is not told: $(cat log)"
+cmp whole/history.csv e/history.csv || fail "the history differs"
+[ "$(ls e/fields | wc -l)" -eq 8 ] || fail "frames: $(ls e/fields)"
+
+# A lost history is missed; what is no checkpoint is refused.
+rm -rf e; cp -r b e; rm e/history.csv
+[ "$(code_of pile --restart e)" -eq 1 ] && grep -q 'history.csv: is missing' log || fail "a lost history: $(cat log)"
+[ "$(code_of pile --restart sample.h5)" -eq 1 ] && grep -q 'sample.h5: is no checkpoint' log || fail "a sample: $(cat log)"
+[ "$(code_of pile --restart nowhere)" -eq 1 ] && grep -q 'holds neither a checkpoint nor' log || fail "nowhere: $(cat log)"
+"$mergel" info sample.h5 >info && grep -q 'porosity' info || fail "info of a sample: $(cat info)"
+echo "restart: all holds"

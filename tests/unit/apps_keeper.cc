@@ -1,0 +1,184 @@
+#include "apps/keeper.h"
+
+#include "apps/case_file.h"
+#include "dem/error.h"
+#include "dem/io/history.h"
+
+#include <catch2/catch.hpp>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+using namespace mergel;
+using namespace mergel::apps;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own, gone with the test.
+struct Folder {
+  fs::path path =
+      fs::temp_directory_path() / ("mergel_keeper_" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+/// The steps at which a keeper of this cadence writes, of the first `n`.
+std::vector<std::uint64_t> steps_written(Keeper& keeper, const fs::path& folder,
+                                         std::uint64_t n)
+{
+  std::vector<std::uint64_t> steps;
+  for (std::uint64_t step = 1; step <= n; ++step) {
+    keeper.after_step(dem::Domain(), {step, 1e-6, "driving"}, [](dem::State& state) {
+      state.add<double>("x", {1.0, 2.0});
+    });
+    if (fs::exists(folder / dem::checkpoint_name(step))) steps.push_back(step);
+  }
+  return steps;
+}
+
+std::string content(const fs::path& file)
+{
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+} // namespace
+
+TEST_CASE("A cadence is a time, a number of steps or never", "[unit][apps]")
+{
+  CHECK(to_cadence("10 min").seconds == 600.0);
+  CHECK(to_cadence("10 min").steps == 0);
+  CHECK(to_cadence("5000 steps").steps == 5000);
+  CHECK(std::isinf(to_cadence("5000 steps").seconds));
+  CHECK(std::isinf(to_cadence("never").seconds));
+  CHECK(to_cadence("never").steps == 0);
+  for (const char* wrong : {"", "10", "10 mm", "0 s", "-1 min", "0 steps", "2.5 steps",
+                            "-3 steps", "steps", "always"})
+    CHECK_THROWS_AS(to_cadence(wrong), InputError);
+}
+
+TEST_CASE("A walltime is read as a cluster writes it", "[unit][apps]")
+{
+  CHECK(to_walltime("4h") == 14400.0);
+  CHECK(to_walltime("30 min") == 1800.0);
+  CHECK(to_walltime("4:00:00") == 14400.0);
+  CHECK(to_walltime("90:30") == 5430.0);
+  for (const char* wrong : {"", "4", "4 mm", "0 s", "1:2:3:4", "4:", ":4", "a:b", "0:00"})
+    CHECK_THROWS_AS(to_walltime(wrong), InputError);
+}
+
+TEST_CASE("Checkpoints come at their steps, on SIGUSR1 at the next look, and two are kept",
+          "[unit][apps]")
+{
+  const Folder folder;
+  Keeper by_steps({.folder = folder.path,
+                   .job = "pile",
+                   .case_text = "",
+                   .every = to_cadence("7 steps")});
+  CHECK(steps_written(by_steps, folder.path, 30) ==
+        std::vector<std::uint64_t>{7, 14, 21, 28});
+  CHECK(dem::checkpoints_in(folder.path).size() == 2);
+  CHECK_THAT(by_steps.remedy(),
+             Contains("last good checkpoint is " + folder.path.string()));
+
+  fs::remove_all(folder.path);
+  fs::create_directories(folder.path);
+  Keeper on_signal({.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
+  CHECK(steps_written(on_signal, folder.path, 30).empty());
+  std::raise(SIGUSR1);
+  CHECK(steps_written(on_signal, folder.path, 30) == std::vector<std::uint64_t>{10});
+}
+
+TEST_CASE("SIGTERM and the end of the walltime stop a run behind a checkpoint",
+          "[unit][apps]")
+{
+  const Folder folder;
+  Keeper keeper({.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
+  std::raise(SIGTERM);
+  CHECK_THROWS_WITH(steps_written(keeper, folder.path, 30),
+                    Contains("stopped by SIGTERM at step 10") &&
+                        Contains("checkpoint_000000000010.h5") &&
+                        Contains("mergel pile --restart " + folder.path.string()));
+  CHECK(dem::read_checkpoint(folder.path / dem::checkpoint_name(10)).label.step == 10);
+
+  Keeper late(
+      {.folder = folder.path, .job = "pile", .case_text = "", .every = {}, .end = 0.0});
+  CHECK_THROWS_WITH(steps_written(late, folder.path, 30),
+                    Contains("stopped before the end of --walltime at step 10"));
+}
+
+TEST_CASE("A checkpoint that cannot be written names the last good one", "[unit][apps]")
+{
+  const Folder folder;
+  Keeper keeper({.folder = folder.path / "gone",
+                 .job = "pile",
+                 .case_text = "",
+                 .every = to_cadence("5 steps"),
+                 .restarted_from = "earlier.h5"});
+  CHECK_THROWS_WITH(
+      steps_written(keeper, folder.path, 5),
+      Contains("checkpoint_000000000005.h5: cannot be written: No such file") &&
+          Contains("the last good checkpoint is earlier.h5"));
+}
+
+TEST_CASE("A history goes on where its mark is, and nowhere else", "[unit][apps]")
+{
+  const Folder folder;
+  const fs::path file = folder.path / "history.csv";
+  const std::vector<std::string> columns{"a [m]", "b [s]"};
+  dem::HistoryMark mark;
+  {
+    dem::History history(file, columns);
+    history.add({1.0, 2.0});
+    mark = history.mark();
+    history.add({3.0, 4.0});
+  }
+  const std::string whole = content(file);
+  std::ofstream(file, std::ios::app) << "5,";
+  {
+    dem::History history(file, columns, file, mark);
+    CHECK(content(file) == "a [m],b [s]\n1,2\n");
+    history.add({3.0, 4.0});
+  }
+  CHECK(content(file) == whole);
+  std::ofstream(file) << "a [m],b [s]\n1,3\n";
+  CHECK_THROWS_WITH(dem::check_history(file, mark), Contains("does not begin as it did"));
+  fs::remove(file);
+  CHECK_THROWS_WITH(dem::check_history(file, mark), Contains("history.csv: is missing"));
+}
+
+TEST_CASE("The keys in which two resolved cases differ are found", "[unit][apps]")
+{
+  const auto read = [](const std::string& text, auto&& use) {
+    CaseFile file;
+    double length = 1e-3;
+    std::string name = "x";
+    {
+      const auto section = file.section("A");
+      file.quantity("length", length, "m", positive, "A length.", "mm");
+      file.text("name", name, "A name.");
+    }
+    file.read_text(text, "case");
+    use(file);
+  };
+  std::string earlier;
+  read("", [&](CaseFile& file) { earlier = file.resolved_text(); });
+  read("subsection A\n set length = 1000 um\nend\n", [&](CaseFile& file) {
+    CHECK(file.changes_since(earlier).empty()); // the same bits
+  });
+  read("subsection A\n set length = 2 mm\n set name =\nend\n", [&](CaseFile& file) {
+    const auto changes = file.changes_since(earlier);
+    REQUIRE(changes.size() == 2);
+    CHECK(changes[0].key == "length");
+    CHECK(changes[0].was == "1 mm");
+    CHECK(changes[0].is == "2 mm");
+    CHECK(changes[1].was == "x");
+    CHECK(changes[1].is.empty());
+  });
+}

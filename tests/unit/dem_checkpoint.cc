@@ -1,0 +1,299 @@
+#include "dem/distribute.h"
+#include "dem/io/checkpoint.h"
+#include "dem/io/rock_state.h"
+#include "dem/io/sample_file.h"
+#include "dem/io/seal.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <unistd.h>
+
+using namespace mergel;
+using namespace mergel::dem;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own, gone with the test.
+struct Folder {
+  fs::path path =
+      fs::temp_directory_path() / ("mergel_checkpoint_" + std::to_string(::getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+};
+
+/// A bonded row of grains at a plane, a triangulated wall, a mirror and a pile that push
+/// it, on its way: every kind of history is there, and none is zero.
+Rock rock_with_everything()
+{
+  Rock rock;
+  DamageBond bond;
+  bond.E = 1e9;
+  bond.sigma_t = 1e6;
+  bond.sigma_c = 3e6;
+  bond.C = 1e6;
+  bond.u_c = 1e-4;
+  bond.theta_c = 0.1;
+  rock.material.bond = bond;
+  rock.material.contact = {1e8, 2.4, 0.3, 1e-4};
+  rock.motion.gravity = {0.0, 0.0, -9.81};
+  rock.list = VerletList(1e-4, 1e-3);
+  for (int k = 0; k < 6; ++k) {
+    Body b;
+    b.R = 0.01;
+    b.x = {0.0199 * k, 0.00999, 0.00995};
+    b.m = sphere_mass(b.R, 2500.0);
+    b.v = {0.01 * k, 0.003, -0.02};
+    b.omega = {0.0, 1.0 + k, 0.0};
+    rock.particles.add(b);
+  }
+  rock.bonds = make_bonds(rock.particles, rock.cell, {{0, 1, {}}, {1, 2, {}}, {2, 3, {}}});
+  PlaneWall floor;
+  floor.material = rock.material.contact;
+  floor.plane.v = {0.001, 0.0, 0.0};
+  rock.planes.push_back(floor);
+  rock.mirrors.emplace_back();
+  bond_to_mirror(rock.mirrors.front(), rock.particles, 1e-3);
+  rock.walls.push_back(
+      make_wall({{-0.00998, -0.1, -0.1}, {-0.00998, 0.2, -0.1}, {-0.00998, 0.0, 0.2}},
+                {{0, 1, 2}}, rock.material.contact));
+  rock.walls.front().v = {{1e-3, 0, 0}, {2e-3, 0, 0}, {0, 1e-3, 0}};
+  bond_to_wall(rock.walls.front(), rock.particles, 1e-3);
+  PileWall pile;
+  pile.pile.R = 0.004;
+  pile.pile.cone_height = 0.004;
+  pile.pile.x_axis = 0.06;
+  pile.pile.y_axis = 0.0105;
+  pile.pile.z_tip = 0.0199;
+  pile.pile.v_z = -0.05;
+  pile.material = rock.material.contact;
+  rock.piles.push_back(pile);
+  add_forces(rock, 0.0);
+  return rock;
+}
+
+constexpr double dt = 1e-6;
+
+void step(Rock& rock)
+{
+  advance(rock, dt, dt, [&](double h) {
+    rock.piles.front().pile.z_tip += h * rock.piles.front().pile.v_z;
+    for (std::size_t k = 0; k < 3; ++k)
+      rock.walls.front().x[k] += h * rock.walls.front().v[k];
+    rock.planes.front().plane.point += h * rock.planes.front().plane.v;
+  });
+}
+
+State kept(const Rock& rock)
+{
+  State state(0);
+  put(state, rock);
+  return state;
+}
+
+/// Every array of both, by its bytes.
+std::string first_difference(const State& a, const State& b)
+{
+  for (const auto& [name, array] : a.arrays()) {
+    const auto other = b.arrays().find(name);
+    if (other == b.arrays().end() || other->second.columns != array.columns) return name;
+    const bool same = std::visit(
+        [&](const auto& v) {
+          const auto* w = std::get_if<std::decay_t<decltype(v)>>(&other->second.values);
+          return w && w->size() == v.size() &&
+                 (v.empty() ||
+                  std::memcmp(v.data(), w->data(), v.size() * sizeof(v[0])) == 0);
+        },
+        array.values);
+    if (!same) return name;
+  }
+  return a.arrays().size() == b.arrays().size() ? "" : "number of arrays";
+}
+
+CheckpointLabel label()
+{
+  return {"0.1.0", "pile", "driving", "subsection A\n  set b = 1\nend\n", 123456, 0.25};
+}
+
+void write(const fs::path& file)
+{
+  write_checkpoint(file, label(), kept(rock_with_everything()), Domain());
+}
+
+std::string refusal(const fs::path& file)
+{
+  try {
+    read_checkpoint(file);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "read";
+}
+
+void overwrite_byte(const fs::path& file, std::streamoff at, char value)
+{
+  std::fstream f(file, std::ios::in | std::ios::out | std::ios::binary);
+  f.seekp(at);
+  f.put(value);
+}
+
+} // namespace
+
+TEST_CASE("a rock goes on from a checkpoint with the same bits", "[unit][dem]")
+{
+  const Folder folder;
+  Rock rock = rock_with_everything();
+  for (int k = 0; k < 100; ++k) step(rock);
+  const fs::path file = folder.path / checkpoint_name(100);
+  write_checkpoint(file, label(), kept(rock), Domain());
+  for (int k = 0; k < 100; ++k) step(rock);
+
+  const Checkpoint c = read_checkpoint(file);
+  CHECK(c.label.job == "pile");
+  CHECK(c.label.stage == "driving");
+  CHECK(c.label.case_text == label().case_text);
+  CHECK(c.label.step == 123456);
+  CHECK(c.label.time == 0.25);
+  // Into a rock of the same case that stands at its beginning.
+  Rock other = rock_with_everything();
+  take(c.state, other);
+  rebuild_lists(other);
+  for (int k = 0; k < 100; ++k) step(other);
+  CHECK(first_difference(kept(rock), kept(other)).empty());
+
+  // Every kind of history took part.
+  CHECK(rock.planes.front().contacts.contacts().front().f_s.norm() > 0.0);
+  CHECK(rock.walls.front().contacts.size() == 1);
+  CHECK(rock.walls.front().bonds.front().V.norm() > 0.0);
+  CHECK(rock.piles.front().load.cone.z.value() > 0.0);
+  CHECK(rock.contacts.shear.size() > 0);
+  CHECK(shear_beside(rock.bonds, 0).norm() > 0.0);
+  CHECK(rock.mirrors.front().energy.value() > 0.0);
+}
+
+TEST_CASE("what is no checkpoint is refused with the reason", "[unit][dem]")
+{
+  const Folder folder;
+  const fs::path file = folder.path / "c.h5";
+  CHECK(refusal(file) == "there is no such file");
+  CHECK(refusal(folder.path) == "is not a file");
+  std::ofstream(file) << "time [s],depth [m]\n";
+  CHECK(refusal(file).find("is no checkpoint: it is not an HDF5 file") == 0);
+  write(file);
+  CHECK(refusal(file) == "read");
+  fs::resize_file(file, fs::file_size(file) - 1);
+  CHECK(refusal(file).find("is no checkpoint, or is truncated") == 0);
+  write_sample(file, Sample{});
+  CHECK(refusal(file).find("is no checkpoint, or is truncated") == 0);
+  write_state(file, "checkpoint", 2, State(0), Domain());
+  CHECK(refusal(file).find("has checkpoint format 2, newer than the 1 that") == 0);
+  write_state(file, "checkpoint", 1, State(0), Domain());
+  CHECK(refusal(file).find("does not fit this program or case: its array label_") == 0);
+}
+
+TEST_CASE("a checkpoint with one changed byte is refused, wherever the byte is",
+          "[unit][dem]")
+{
+  const Folder folder;
+  const fs::path file = folder.path / "c.h5";
+  write(file);
+  std::ifstream in(file, std::ios::binary);
+  const std::string good((std::istreambuf_iterator<char>(in)), {});
+  in.close();
+  std::size_t n_tried = 0, n_refused = 0;
+  for (std::size_t at = 0; at < good.size(); at += 31) {
+    overwrite_byte(file, static_cast<std::streamoff>(at),
+                   static_cast<char>(good[at] ^ 0x80));
+    ++n_tried;
+    n_refused += refusal(file) != "read";
+    overwrite_byte(file, static_cast<std::streamoff>(at), good[at]);
+  }
+  CHECK(n_tried > 300);
+  CHECK(n_refused == n_tried);
+  CHECK(refusal(file) == "read");
+}
+
+TEST_CASE("the sum of words sees two flipped signs and zeros at the end", "[unit][dem]")
+{
+  std::string bytes(64, '\0');
+  const auto sum = [&] { return sum_of_words(bytes); };
+  const std::uint64_t plain = sum();
+  bytes[7] = bytes[15] = static_cast<char>(0x80); // both top bits: FNV-1a of words is blind
+  CHECK(sum() != plain);
+  bytes.assign(65, '\0');
+  CHECK(sum() != plain);
+}
+
+TEST_CASE("arrays that do not fit each other are refused by name", "[unit][dem]")
+{
+  const Rock rock = rock_with_everything();
+  const auto refusal_with = [&](const auto& change) {
+    State state = kept(rock);
+    change(state);
+    Rock other = rock_with_everything();
+    try {
+      take(state, other);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string("taken");
+  };
+  using Catch::Matchers::Contains;
+  CHECK(refusal_with([](State&) {}) == "taken");
+  CHECK_THAT(refusal_with([](State& s) {
+               s.add<std::uint32_t>("bond_pairs", {0, 1, 1, 2, 2, 6}, 2);
+             }),
+             Contains("bond_pairs names grains that cannot be a pair"));
+  CHECK_THAT(refusal_with([](State& s) {
+               s.add<std::uint32_t>("bond_pairs", {0, 1, 1, 2, 1, 2}, 2);
+             }),
+             Contains("bond_pairs names one twice"));
+  CHECK_THAT(refusal_with([](State& s) {
+               s.add<std::uint32_t>("grains", {0, 1, 2, 3, 4, 7});
+             }),
+             Contains("grains leaves some out"));
+  CHECK_THAT(refusal_with([](State& s) {
+               s.add<std::int32_t>("grain_bonds", {1, 1});
+             }),
+             Contains("grain_bonds has 2 rows, not 6"));
+  CHECK_THAT(refusal_with([](State& s) {
+               s.add<std::uint64_t>("bodies", {1, 1, 1, 0});
+             }),
+             Contains("counts other walls or piles"));
+  CHECK_THAT(
+      refusal_with([](State& s) { s.add<std::int32_t>("wall0_bond_triangles", {1}); }),
+      Contains("names a triangle that is not there"));
+}
+
+TEST_CASE("a state that is not a number is never written", "[unit][dem]")
+{
+  const Folder folder;
+  const fs::path file = folder.path / "c.h5";
+  write(file);
+  Rock rock = rock_with_everything();
+  rock.particles.body[2].v.x() = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(write_checkpoint(file, label(), kept(rock), Domain()), CollectiveFailure);
+  CHECK(refusal(file) == "read"); // the one before
+}
+
+TEST_CASE("the newest checkpoint that can be read is found, and the newer ones are named",
+          "[unit][dem]")
+{
+  const Folder folder;
+  CHECK(newest_checkpoint(folder.path / "none").file.empty());
+  for (const std::uint64_t step : {900u, 1000u, 20000u})
+    write(folder.path / checkpoint_name(step));
+  fs::resize_file(folder.path / checkpoint_name(20000), 5000);
+  const FoundCheckpoint found = newest_checkpoint(folder.path);
+  CHECK(found.file == folder.path / checkpoint_name(1000));
+  REQUIRE(found.refused.size() == 1);
+  CHECK(found.refused.front().find(checkpoint_name(20000) + ": is no checkpoint, or is") !=
+        std::string::npos);
+  keep_newest(folder.path, 2);
+  CHECK(checkpoints_in(folder.path) ==
+        std::vector<fs::path>{folder.path / checkpoint_name(20000),
+                              folder.path / checkpoint_name(1000)});
+}
