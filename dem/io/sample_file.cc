@@ -1,12 +1,17 @@
 #include "dem/io/sample_file.h"
 
 #include "dem/io/atomic_file.h"
+#include "dem/io/plain_hdf5.h"
 
 #include <hdf5.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+
+#include <unistd.h>
 
 namespace mergel::dem {
 
@@ -86,15 +91,6 @@ std::string all_bytes(const std::filesystem::path& file)
   return bytes;
 }
 
-void seal(const std::filesystem::path& file)
-{
-  const std::string bytes = all_bytes(file);
-  std::ofstream out(file, std::ios::binary | std::ios::app);
-  out << mark << fnv_1a(bytes, bytes.size());
-  out.flush();
-  if (!out) throw NumericalError(file.string() + ": cannot be written; is the disk full?");
-}
-
 /// @throws InputError when the file was not sealed, or was changed since
 void check_seal(const std::filesystem::path& file)
 {
@@ -134,8 +130,10 @@ void write_array(hid_t file, const char* name, hid_t type, const void* data, hsi
 template <class T>
 std::vector<T> read_array(hid_t file, const char* name, hid_t type, hsize_t columns)
 {
+  require_own(file, name);
   const Handle set(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose,
                    std::string("find ") + name);
+  require_plain_array(set, name, type);
   const Handle space(H5Dget_space(set), H5Sclose, std::string("read ") + name);
   hsize_t size[2] = {0, 1};
   const int rank = H5Sget_simple_extent_ndims(space);
@@ -143,7 +141,7 @@ std::vector<T> read_array(hid_t file, const char* name, hid_t type, hsize_t colu
       H5Sget_simple_extent_dims(space, size, nullptr) < 0 || size[1] != columns)
     throw NumericalError(std::string("the shape is wrong of ") + name);
   // A changed size must not ask for more memory than the file can fill.
-  if (H5Dget_storage_size(set) < size[0] * columns * sizeof(T))
+  if (size[0] > H5Dget_storage_size(set) / sizeof(T) / columns)
     throw NumericalError(std::string("data are missing of ") + name);
   std::vector<T> data(size[0] * columns);
   if (!data.empty() && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()) < 0)
@@ -163,6 +161,7 @@ void write_attribute(hid_t file, const char* name, hid_t type, const void* value
 void read_attribute(hid_t file, const char* name, hid_t type, void* value)
 {
   const Handle a(H5Aopen(file, name, H5P_DEFAULT), H5Aclose, std::string("find ") + name);
+  require_single(a, name, type);
   if (H5Aread(a, type, value) < 0)
     throw NumericalError(std::string("HDF5 cannot read ") + name);
 }
@@ -198,11 +197,16 @@ Columns to_columns(const Sample& s)
   return c;
 }
 
-void write_columns(const std::filesystem::path& path, const Columns& c)
+/// The HDF5 file, made in memory: HDF5 does not survive a disk that is full (1.10.8 crashes
+/// at the end of the program).
+std::string hdf5_bytes(const Columns& c)
 {
   const Quiet quiet;
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-              "create " + path.string());
+  const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "describe a file");
+  constexpr std::size_t growth = 1 << 16;
+  H5Pset_fapl_core(in_memory, growth, false);
+  Handle file(H5Fcreate(format, H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose,
+              "make a file in memory");
   const auto rows = [](std::size_t n) { return static_cast<hsize_t>(n); };
   write_array(file, "x", H5T_NATIVE_DOUBLE, c.x.data(), rows(c.R.size()), 3);
   write_array(file, "R", H5T_NATIVE_DOUBLE, c.R.data(), rows(c.R.size()), 1);
@@ -222,14 +226,50 @@ void write_columns(const std::filesystem::path& path, const Columns& c)
   write_attribute(file, "porosity", H5T_NATIVE_DOUBLE, &c.porosity);
   write_attribute(file, "whole_porosity", H5T_NATIVE_DOUBLE, &c.whole_porosity);
   write_attribute(file, "overlap", H5T_NATIVE_DOUBLE, &c.overlap);
-  file.finish("write " + path.string());
-  seal(path);
+  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw NumericalError("HDF5 cannot flush");
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  std::string bytes(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
+  if (bytes.empty() || H5Fget_file_image(file, bytes.data(), bytes.size()) != size)
+    throw NumericalError("HDF5 cannot give its bytes");
+  file.finish("close a file in memory");
+  return bytes;
+}
+
+/// @throws InputError when the arrays do not fit each other, or a grain or bond cannot be
+void check(const Columns& c)
+{
+  const std::size_t n = c.R.size();
+  bool fits = c.x.size() == 3 * n && c.m.size() == n && c.S.size() == n;
+  fits = fits && std::count(c.keys.begin(), c.keys.end(), '\n') ==
+                     std::count(c.values.begin(), c.values.end(), '\n');
+  for (std::size_t k = 0; k < c.bonds.size(); k += 2) {
+    const std::uint32_t i = c.bonds[k], j = c.bonds[k + 1];
+    fits = fits && i < j && j < n;
+    if (k > 0) // ascending: none twice
+      fits = fits && std::pair(c.bonds[k - 2], c.bonds[k - 1]) < std::pair(i, j);
+  }
+  if (!fits) throw InputError("is damaged (its arrays do not fit each other)");
+
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
+    bool is_grain = is_positive(c.R[i]) && is_positive(c.m[i]) && is_positive(c.S[i]);
+    for (std::size_t a = 3 * i; a < 3 * i + 3; ++a)
+      is_grain = is_grain && std::isfinite(c.x[a]);
+    if (!is_grain)
+      throw InputError("is damaged (grain " + std::to_string(i) +
+                       " has no place, radius, mass or S); make it again with `mergel "
+                       "sample`");
+  }
 }
 
 Columns read_columns(const std::filesystem::path& path)
 {
-  if (!std::filesystem::exists(path)) throw InputError("there is no such file");
-  if (!std::filesystem::is_regular_file(path)) throw InputError("is not a file");
+  std::error_code error; // a name too long, a folder that may not be entered
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw InputError("there is no such file");
+  if (!std::filesystem::is_regular_file(status)) throw InputError("is not a file");
+  if (::access(path.c_str(), R_OK) != 0)
+    throw InputError("cannot be read: check its permissions");
   const Quiet quiet;
   check_seal(path);
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -264,10 +304,7 @@ Columns read_columns(const std::filesystem::path& path)
     throw InputError(std::string("is damaged (") + e.what() +
                      "); make it again with `mergel sample`");
   }
-  const std::size_t n = c.R.size();
-  bool fits = c.x.size() == 3 * n && c.m.size() == n && c.S.size() == n;
-  for (const std::uint32_t id_of_end : c.bonds) fits = fits && id_of_end < n;
-  if (!fits) throw InputError("is damaged (its arrays do not fit each other)");
+  check(c);
   return c;
 }
 
@@ -275,8 +312,9 @@ Columns read_columns(const std::filesystem::path& path)
 
 void write_sample(const std::filesystem::path& file, const Sample& sample)
 {
-  const Columns c = to_columns(sample);
-  replace_file(file, [&](const std::filesystem::path& path) { write_columns(path, c); });
+  std::string bytes = hdf5_bytes(to_columns(sample));
+  bytes += mark + fnv_1a(bytes, bytes.size());
+  replace_file(file, bytes);
 }
 
 Sample read_sample(const std::filesystem::path& file)
