@@ -18,6 +18,8 @@
 #include <sstream>
 #include <utility>
 
+#include <unistd.h>
+
 namespace mergel::apps {
 
 namespace {
@@ -330,6 +332,24 @@ Line csv_line(const WorkloadSpec& spec, const Figures& f, double triad)
   return {header.str(), text.str()};
 }
 
+/// Refuse a file that cannot be made, before anything is measured.
+/// @throws InputError
+void check_place(const char* option, const std::filesystem::path& file)
+{
+  const std::filesystem::path parent = file.parent_path();
+  const std::filesystem::path folder = parent.empty() ? "." : parent;
+  std::error_code error;
+  const bool is_there = std::filesystem::exists(file, error);
+  require(is_there || error != std::errc::filename_too_long,
+          "mergel bench: " + std::string(option) + ": " + error.message() +
+              ". Give a shorter name");
+  require(::access(folder.c_str(), W_OK | X_OK) == 0 &&
+              std::filesystem::is_directory(folder, error),
+          "mergel bench: " + std::string(option) + " " + file.string() + ": the folder " +
+              folder.string() +
+              " is not there or cannot be written. Make it, or name another");
+}
+
 /// The lines that the file has, without newlines; none if there is no file.
 /// @throws InputError when it is not a table of this job
 std::vector<std::string> earlier_lines(const std::filesystem::path& file,
@@ -375,6 +395,7 @@ void write_block(const std::filesystem::path& file, const WorkingRock& working)
 int run_bench(const BenchOptions& o)
 {
   if (!o.block.empty()) {
+    check_place("--write-block", o.block);
     on_first_rank(
         [&] { write_block(o.block, make_workload(spec_of(o, Workload::bonded_block))); });
     std::cout << "block: " << o.block.string() << '\n';
@@ -384,7 +405,10 @@ int run_bench(const BenchOptions& o)
     measure_checkpoint(spec_of(o, o.workloads.front()), o.checkpoint);
     return 0;
   }
-  if (!o.output.empty()) earlier_lines(o.output, csv_line(o.spec, {}, 0.0).header);
+  if (!o.output.empty()) {
+    check_place("--output", o.output);
+    earlier_lines(o.output, csv_line(o.spec, {}, 0.0).header);
+  }
 
   const auto n_blocks = static_cast<std::size_t>(o.repeat);
   const std::size_t steps_a_block = static_cast<std::size_t>(o.steps) / n_blocks;

@@ -82,7 +82,8 @@ std::vector<fs::path> OutputFolder::left_by_earlier_run() const
         if (!field.is_directory() && is_own_field(final_name(field.path().filename())))
           found.push_back(field.path());
   }
-  if (error && fs::exists(folder_))
+  std::error_code unknown;
+  if (error && fs::exists(folder_, unknown))
     refuse(folder_, "cannot be read: " + error.message() + ".");
   std::sort(found.begin(), found.end()); // the order of a folder is arbitrary
   return found;
@@ -96,8 +97,12 @@ void OutputFolder::check(const std::vector<fs::path>& inputs) const
   // the folder itself or, if it is yet to be made, the nearest that is there
   fs::path there = fs::absolute(folder_).lexically_normal();
   std::error_code error;
-  while (!fs::exists(fs::symlink_status(there, error)) && there.has_relative_path())
+  while (!fs::exists(fs::symlink_status(there, error)) && there.has_relative_path()) {
+    if (error == std::errc::filename_too_long)
+      refuse(folder_, "cannot be created: " + error.message() +
+                          ". Choose another folder with --output.");
     there = there.parent_path();
+  }
   if (!fs::is_directory(fs::status(there, error))) {
     const std::string remedy = ". Choose another folder with --output.";
     if (error == std::errc::permission_denied)

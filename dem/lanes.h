@@ -87,24 +87,25 @@ inline double min(double a, double b)
 /// In each group of four lanes: four rows of four numbers to four columns, and back.
 inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d)
 {
-  using Pick = Mask;
 #ifdef __AVX512DQ__
-  const Lanes ab_low = __builtin_shuffle(a, b, Pick{0, 8, 2, 10, 4, 12, 6, 14});
-  const Lanes ab_high = __builtin_shuffle(a, b, Pick{1, 9, 3, 11, 5, 13, 7, 15});
-  const Lanes cd_low = __builtin_shuffle(c, d, Pick{0, 8, 2, 10, 4, 12, 6, 14});
-  const Lanes cd_high = __builtin_shuffle(c, d, Pick{1, 9, 3, 11, 5, 13, 7, 15});
-  const Pick first{0, 1, 8, 9, 4, 5, 12, 13}, second{2, 3, 10, 11, 6, 7, 14, 15};
+  const Lanes ab_low = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes ab_high = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Lanes cd_low = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes cd_high = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+  a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 8, 9, 4, 5, 12, 13);
+  b = __builtin_shufflevector(ab_high, cd_high, 0, 1, 8, 9, 4, 5, 12, 13);
+  c = __builtin_shufflevector(ab_low, cd_low, 2, 3, 10, 11, 6, 7, 14, 15);
+  d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 10, 11, 6, 7, 14, 15);
 #else
-  const Lanes ab_low = __builtin_shuffle(a, b, Pick{0, 4, 2, 6});
-  const Lanes ab_high = __builtin_shuffle(a, b, Pick{1, 5, 3, 7});
-  const Lanes cd_low = __builtin_shuffle(c, d, Pick{0, 4, 2, 6});
-  const Lanes cd_high = __builtin_shuffle(c, d, Pick{1, 5, 3, 7});
-  const Pick first{0, 1, 4, 5}, second{2, 3, 6, 7};
+  const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Lanes ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Lanes cd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+  c = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+  d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 #endif
-  a = __builtin_shuffle(ab_low, cd_low, first);
-  b = __builtin_shuffle(ab_high, cd_high, first);
-  c = __builtin_shuffle(ab_low, cd_low, second);
-  d = __builtin_shuffle(ab_high, cd_high, second);
 }
 
 /// One row a lane to four columns.

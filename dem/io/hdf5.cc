@@ -52,6 +52,7 @@ void write_attribute(hid_t file, const std::string& name, hid_t type, const void
 void read_attribute(hid_t file, const std::string& name, hid_t type, void* value)
 {
   const Handle a(H5Aopen(file, name.c_str(), H5P_DEFAULT), H5Aclose, "find " + name);
+  require_single(a, name, type);
   if (H5Aread(a, type, value) < 0) throw NumericalError("HDF5 cannot read " + name);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem/error.h"
+#include "dem/io/plain_hdf5.h"
 
 #include <hdf5.h>
 
@@ -80,7 +81,9 @@ void read_into(hid_t array, const std::string& name, hid_t type, void* data);
 template <class T>
 std::vector<T> read_array(hid_t file, const std::string& name, hid_t type, hsize_t columns)
 {
+  require_own(file, name);
   const Handle array(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "find " + name);
+  require_plain_array(array, name, type);
   const Shape shape = shape_of(array, name, sizeof(T));
   if (shape.columns != columns) throw NumericalError("the shape is wrong of " + name);
   std::vector<T> data(shape.rows * columns);

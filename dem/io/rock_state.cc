@@ -340,7 +340,8 @@ void take_wall(const State& state, const std::string& name, std::size_t n, Wall&
   }
   update_normals(wall);
   wall.contacts = take_wall_contacts(state, name, n);
-  wall.near.assign(wall.contacts.size(), {}); // made anew with the list
+  wall.listed.assign(wall.contacts.size(), {}); // made anew with the list
+  wall.pushes.clear();
   wall.x_listed.clear();
 
   const auto& grain = state.get<std::uint32_t>(name + "_bond_grains");
@@ -392,12 +393,8 @@ std::vector<ExactWide*> sums_of_all(Rock& rock)
 {
   std::vector<ExactWide*> sums{&rock.wall_work.raw(), &rock.pile_work.raw()};
   for (PlaneWall& w : rock.planes) append(sums, w.force);
-  for (Wall& w : rock.walls) {
+  for (Wall& w : rock.walls)
     for (VectorSum& f : w.f) append(sums, f);
-    sums.push_back(&w.contact_power.raw());
-    append(sums, w.force_on_grains);
-    append(sums, w.moment_on_grains);
-  }
   for (PileWall& w : rock.piles) {
     append(sums, w.load.cone);
     append(sums, w.load.shaft);
@@ -421,13 +418,7 @@ Rock copy_of_sums(const Rock& rock)
     copy.mirrors.back().force = m.force;
   }
   for (const PlaneWall& w : rock.planes) copy.planes.emplace_back().force = w.force;
-  for (const Wall& w : rock.walls) {
-    Wall& c = copy.walls.emplace_back();
-    c.f = w.f;
-    c.contact_power = w.contact_power;
-    c.force_on_grains = w.force_on_grains;
-    c.moment_on_grains = w.moment_on_grains;
-  }
+  for (const Wall& w : rock.walls) copy.walls.emplace_back().f = w.f;
   for (const PileWall& w : rock.piles) copy.piles.emplace_back().load = w.load;
   return copy;
 }

@@ -4,6 +4,9 @@
 #include "dem/io/hdf5.h"
 #include "dem/io/seal.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace mergel::dem {
 
 using namespace hdf5;
@@ -55,11 +58,16 @@ Columns to_columns(const Sample& s)
   return c;
 }
 
-void write_columns(const std::filesystem::path& path, const Columns& c)
+/// The HDF5 file, made in memory: HDF5 does not survive a disk that is full (1.10.8 crashes
+/// at the end of the program).
+std::string hdf5_bytes(const Columns& c)
 {
   const Quiet quiet;
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-              "create " + path.string());
+  const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "describe a file");
+  constexpr std::size_t growth = 1 << 16;
+  H5Pset_fapl_core(in_memory, growth, false);
+  Handle file(H5Fcreate(format, H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose,
+              "make a file in memory");
   write_array(file, "x", H5T_NATIVE_DOUBLE, c.x.data(), {c.R.size(), 3});
   write_array(file, "R", H5T_NATIVE_DOUBLE, c.R.data(), {c.R.size(), 1});
   write_array(file, "m", H5T_NATIVE_DOUBLE, c.m.data(), {c.R.size(), 1});
@@ -75,8 +83,40 @@ void write_columns(const std::filesystem::path& path, const Columns& c)
   write_attribute(file, "porosity", H5T_NATIVE_DOUBLE, &c.porosity);
   write_attribute(file, "whole_porosity", H5T_NATIVE_DOUBLE, &c.whole_porosity);
   write_attribute(file, "overlap", H5T_NATIVE_DOUBLE, &c.overlap);
-  file.finish("write " + path.string());
-  seal(path, sample_seal);
+  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw NumericalError("HDF5 cannot flush");
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  std::string bytes(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
+  if (bytes.empty() || H5Fget_file_image(file, bytes.data(), bytes.size()) != size)
+    throw NumericalError("HDF5 cannot give its bytes");
+  file.finish("close a file in memory");
+  return bytes;
+}
+
+/// @throws InputError when the arrays do not fit each other, or a grain or bond cannot be
+void check(const Columns& c)
+{
+  const std::size_t n = c.R.size();
+  bool fits = c.x.size() == 3 * n && c.m.size() == n && c.S.size() == n;
+  fits = fits && std::count(c.keys.begin(), c.keys.end(), '\n') ==
+                     std::count(c.values.begin(), c.values.end(), '\n');
+  for (std::size_t k = 0; k < c.bonds.size(); k += 2) {
+    const std::uint32_t i = c.bonds[k], j = c.bonds[k + 1];
+    fits = fits && i < j && j < n;
+    if (k > 0) // ascending: none twice
+      fits = fits && std::pair(c.bonds[k - 2], c.bonds[k - 1]) < std::pair(i, j);
+  }
+  if (!fits) throw InputError("is damaged (its arrays do not fit each other)");
+
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
+    bool is_grain = is_positive(c.R[i]) && is_positive(c.m[i]) && is_positive(c.S[i]);
+    for (std::size_t a = 3 * i; a < 3 * i + 3; ++a)
+      is_grain = is_grain && std::isfinite(c.x[a]);
+    if (!is_grain)
+      throw InputError("is damaged (grain " + std::to_string(i) +
+                       " has no place, radius, mass or S); make it again with `mergel "
+                       "sample`");
+  }
 }
 
 Columns read_columns(const std::filesystem::path& path)
@@ -115,10 +155,7 @@ Columns read_columns(const std::filesystem::path& path)
     throw InputError(std::string("is damaged (") + e.what() +
                      "); make it again with `mergel sample`");
   }
-  const std::size_t n = c.R.size();
-  bool fits = c.x.size() == 3 * n && c.m.size() == n && c.S.size() == n;
-  for (const std::uint32_t id_of_end : c.bonds) fits = fits && id_of_end < n;
-  if (!fits) throw InputError("is damaged (its arrays do not fit each other)");
+  check(c);
   return c;
 }
 
@@ -126,8 +163,7 @@ Columns read_columns(const std::filesystem::path& path)
 
 void write_sample(const std::filesystem::path& file, const Sample& sample)
 {
-  const Columns c = to_columns(sample);
-  replace_file(file, [&](const std::filesystem::path& path) { write_columns(path, c); });
+  replace_file(file, sealed(hdf5_bytes(to_columns(sample)), sample_seal));
 }
 
 Sample read_sample(const std::filesystem::path& file)

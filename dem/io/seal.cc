@@ -65,6 +65,12 @@ std::string hexadecimal(std::uint64_t number)
   return hex;
 }
 
+std::string sealed(std::string bytes, const Seal& seal)
+{
+  const std::string sum = hexadecimal(seal.of(bytes));
+  return std::move(bytes) + mark_of(seal) + sum;
+}
+
 void seal(const std::filesystem::path& file, const Seal& seal)
 {
   const std::string sum = hexadecimal(seal.of(all_bytes(file)));
@@ -76,8 +82,10 @@ void seal(const std::filesystem::path& file, const Seal& seal)
 
 std::string unsealed(const std::filesystem::path& file, const Seal& seal)
 {
-  if (!std::filesystem::exists(file)) throw InputError("there is no such file");
-  if (!std::filesystem::is_regular_file(file)) throw InputError("is not a file");
+  std::error_code error; // a name too long, a folder that may not be entered
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw InputError("there is no such file");
+  if (!std::filesystem::is_regular_file(status)) throw InputError("is not a file");
   std::string bytes = all_bytes(file);
   const std::string hdf5 = "\x89HDF\r\n\x1a\n", mark = mark_of(seal);
   if (bytes.compare(0, hdf5.size(), hdf5) != 0)

@@ -27,6 +27,8 @@ struct Seal {
   std::uint64_t (*of)(std::string_view bytes);
 };
 
+std::string sealed(std::string bytes, const Seal& seal);
+
 /// Append the seal. @throws NumericalError
 void seal(const std::filesystem::path& file, const Seal& seal);
 

@@ -88,7 +88,8 @@ const std::vector<double>& Table::column(std::string_view name, std::string_view
 Table read_table(const std::filesystem::path& file, LastLine last)
 {
   std::ifstream in(file);
-  require(std::filesystem::is_regular_file(file) && in.good(),
+  std::error_code error; // a name too long, a folder that may not be entered
+  require(std::filesystem::is_regular_file(file, error) && in.good(),
           file.string() + ": cannot be read. Check the name and its permissions.");
 
   Table table;

@@ -94,6 +94,7 @@ TEST_CASE("what is no sample is refused with the reason", "[unit][dem]")
   const fs::path file = folder.path / "s.h5";
   CHECK(refusal(file) == "there is no such file");
   CHECK(refusal(folder.path) == "is not a file");
+  CHECK(refusal(folder.path / std::string(300, 'x')) == "there is no such file");
 
   std::ofstream(file) << "time [s],depth [m]\n";
   CHECK(refusal(file).find("is no sample: it is not an HDF5 file") == 0);

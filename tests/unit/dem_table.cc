@@ -122,6 +122,7 @@ TEST_CASE("a damaged history is refused with file and line", "[unit][dem]")
   CHECK_THAT(message_of("a [m],\n1,2\n"), Catch::Contains("no name"));
   CHECK_THROWS_AS(read_table("/nowhere/history.csv"), InputError);
   CHECK_THROWS_AS(read_table("/tmp"), InputError);
+  CHECK_THROWS_AS(read_table(std::string(300, 'x')), InputError);
 }
 
 TEST_CASE("interpolation is linear between records, constant beyond, and skips NaN",

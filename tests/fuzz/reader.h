@@ -1,0 +1,34 @@
+/// A reader of files that people and other programs write, as the fuzzers feed it.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace mergel::fuzz {
+
+/// The reader accepted what it says it refuses.
+struct BrokenPromise : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
+inline void promise(bool holds, const std::string& what)
+{
+  if (!holds) throw BrokenPromise(what);
+}
+
+struct Reader {
+  const char* name; ///< and folder of its corpus
+  bool is_sealed;   ///< the file ends in the sum of its bytes: no changed file is accepted
+  /// Whether the bytes are accepted; false when InputError refuses them. `file` may be
+  /// written. Whatever else is thrown goes on.
+  bool (*accepts)(const std::string& bytes, const std::filesystem::path& file);
+};
+
+extern const Reader case_reader, table_reader, sample_reader, crafted_sample_reader;
+
+/// Replace the contents of a file.
+void write_bytes(const std::filesystem::path& file, const std::string& bytes);
+
+} // namespace mergel::fuzz
