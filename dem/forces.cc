@@ -112,6 +112,24 @@ void shift_images(const std::vector<Pair>& pairs, const std::size_t* which,
   }
 }
 
+/// In a driven cell v is the motion against the cell: give j what the cell moves it against i.
+[[gnu::always_inline]] inline void add_cell_motion(const PeriodicCell& cell,
+                                                   const End<Lanes>& i, End<Lanes>& j)
+{
+  const Triple<Lanes> r = j.x - i.x;
+  j.v += {r.x * cell.rate.x(), r.y * cell.rate.y(), r.z * cell.rate.z()};
+}
+
+/// @param F force on i
+void add_virial(const PairMotion<Lanes>& k, const Triple<Lanes>& F, const Batch& q,
+                const Particles& p, PairLosses& losses)
+{
+  const Triple<Lanes> r = k.n * (k.a_i + k.a_j);
+  const Triple<Lanes> w{F.x * r.x, F.y * r.y, F.z * r.z};
+  for (int l = 0; l < q.count; ++l)
+    if (p.owns(q.i[l])) losses.virial.add(vec3(lane(w, l)));
+}
+
 void prefetch(const Particles& p, Index j)
 {
   const char* b = reinterpret_cast<const char*>(&p.body[j]);
@@ -152,7 +170,10 @@ void return_lanes(const Law& b, const BondShape<Lanes>& s, const Lanes& S,
     if (!counts) continue;
     losses.residue.add(r.residue);
     ++losses.broken;
-    losses.breakages.push_back({pairs[l], 0.5 * (p.body[q.i[l]].x + p.body[q.j[l]].x)});
+    const BreakMode mode = break_mode(b, shape, r.loads);
+    ++losses.broken_by[static_cast<std::size_t>(mode)];
+    losses.breakages.push_back(
+        {pairs[l], 0.5 * (p.body[q.i[l]].x + p.body[q.j[l]].x), mode});
   }
 }
 
@@ -180,6 +201,7 @@ void add_forces_of(const Law& law, const LinearMaterial& contact_law,
     const End<Lanes> i = gather(p.body.data(), q.i);
     End<Lanes> j = gather(p.body.data(), q.j);
     if (is_periodic) shift_images(bonds.pairs, nullptr, first, q, cell, j.x);
+    if (cell.is_driven) add_cell_motion(cell, i, j);
     const PairMotion<Lanes> k = pair_motion(i, j, dt);
 
     BondBlock& h = bonds.blocks[first / n_lanes];
@@ -213,6 +235,7 @@ void add_forces_of(const Law& law, const LinearMaterial& contact_law,
         k.n * (h.intact * N - contact.f_n) + h.V * h.intact + contact.f_s;
     const Triple<Lanes> on_i = (h.M + k.n * h.T) * h.intact;
     scatter(p.load.data(), q.i, q.j, q.count, to_rows(k, F, on_i));
+    if (cell.is_driven) add_virial(k, F, q, p, losses);
   }
 }
 
@@ -264,6 +287,7 @@ void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell
     const End<Lanes> i = gather(p.body.data(), q.i);
     End<Lanes> j = gather(p.body.data(), q.j);
     if (is_periodic) shift_images(contacts.pairs, which, first, q, cell, j.x);
+    if (cell.is_driven) add_cell_motion(cell, i, j);
     const PairMotion<Lanes> k = pair_motion(i, j, dt);
 
     Row shear[n_lanes];
@@ -284,6 +308,7 @@ void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell
     const Triple<Lanes> F = contact.f_s - k.n * contact.f_n;
     const Rows rows = to_rows(k, F, Triple<Lanes>{});
     scatter(p.load.data(), q.i, q.j, q.count, rows);
+    if (cell.is_driven) add_virial(k, F, q, p, losses);
     for (int l = 0; l < q.count; ++l)
       contacts.shear[which[first + static_cast<std::size_t>(l)]].f_s =
           vec3(lane(contact.f_s, l));
