@@ -5,13 +5,16 @@
 ///   block      bonded, free faces, squeezed until bonds break
 ///   turning    the same block, turning and flying across the borders of the ranks
 ///   periodic   a periodic box of bonded and unbonded grains, stirred until bonds break
+///   element    the same box, squeezed along z until bonds break while its sides hold a stress
 ///   rebuild    lists are built at every 7th step besides
 ///   rebalance  grains change ranks at every 50th step, by weights that make no sense;
 ///              doubled histories are compared
 #include "apps/workloads.h"
+#include "dem/averages.h"
 #include "dem/balance.h"
 #include "dem/distribute.h"
 #include "dem/random.h"
+#include "dem/servo.h"
 
 #include <cinttypes>
 #include <cstdio>
@@ -68,7 +71,7 @@ apps::WorkingRock make(const std::string& name)
 {
   apps::WorkloadSpec spec;
   spec.n_particles = 3000;
-  if (name == "periodic") {
+  if (name == "periodic" || name == "element") {
     spec.workload = apps::Workload::frictional_packing;
     apps::WorkingRock w = apps::make_workload(spec);
     // Two thirds of what touches is bonded.
@@ -78,7 +81,8 @@ apps::WorkingRock make(const std::string& name)
     w.rock.bonds = make_bonds(w.rock.particles, w.rock.cell, bonded);
     w.rock.contacts = {};
     w.rock.list.invalidate();
-    stir(w.rock, 10.0);
+    if (name == "periodic") stir(w.rock, 10.0);
+    w.rock.cell.is_driven = name == "element";
     return w;
   }
   if (name != "block" && name != "turning") throw std::invalid_argument("no scene " + name);
@@ -109,18 +113,32 @@ std::uint64_t checksum_of_histories(const Rock& rock)
   return sum;
 }
 
+/// Sides that hold a stress while the box is squeezed.
+void squeeze(apps::WorkingRock& w, Servo& servo, int step)
+{
+  if (step % 100 == 1) servo.stiffness = affine_stiffness(w.rock);
+  servo.limit = 1e-4 / w.dt;
+  const Vec3 sigma = w.rock.virial.value() / w.rock.cell.volume();
+  w.rock.cell.rate = servo.rates(
+      CellOrder{AxisOrder{true, -2e7, 0.0}, {true, -1e7, 0.0}, {false, 0.0, -3e-5 / w.dt}},
+      sigma, w.dt);
+}
+
 void report(apps::WorkingRock& w, int step)
 {
   const EnergyBook e = energy_book(w.rock, w.dt);
   const double unbalanced = unbalanced_ratio(w.rock);
+  const CellAverages c = w.rock.cell.is_driven ? cell_averages(w.rock) : CellAverages{};
   const Rock all = whole(w.rock);
   if (w.rock.domain.rank() != 0) return;
-  std::printf("%4d %016" PRIx64 " %016" PRIx64
-              " broken %zu yielded %zu dt %a unbalanced %a "
-              "kinetic %a bonds %a contacts %a plastic %a residue %a slip %a damping %a\n",
-              step, apps::checksum(all.particles), checksum_of_histories(all),
-              all.losses.broken, all.losses.yielded, w.dt, unbalanced, e.kinetic, e.bonds,
-              e.contacts, e.plastic, e.residue, e.slip, e.damping);
+  std::printf(
+      "%4d %016" PRIx64 " %016" PRIx64 " broken %zu yielded %zu dt %a unbalanced %a "
+      "kinetic %a bonds %a contacts %a plastic %a residue %a slip %a damping %a "
+      "cell work %a stress %a %a traction %a edges %a %a\n",
+      step, apps::checksum(all.particles), checksum_of_histories(all), all.losses.broken,
+      all.losses.yielded, w.dt, unbalanced, e.kinetic, e.bonds, e.contacts, e.plastic,
+      e.residue, e.slip, e.damping, e.cell_work, c.stress(0, 0), c.stress(1, 2),
+      c.traction.z(), all.cell.size.x(), all.cell.size.z());
 }
 
 void run(const std::string& name, bool rebuilds, bool rebalances)
@@ -129,10 +147,12 @@ void run(const std::string& name, bool rebuilds, bool rebalances)
   weaken(w.rock, 1e8);
   share_out(w.rock, MPI_COMM_WORLD);
   add_forces(w.rock, 0.0);
+  Servo servo;
   for (int step = 1; step <= n_steps; ++step) {
     if (rebuilds && step % 7 == 0) w.rock.list.invalidate();
     if (rebalances && step % 50 == 0)
       rebalance(w.rock, 1.0 + (step / 50 + w.rock.domain.rank()) % 3, true);
+    if (w.rock.cell.is_driven) squeeze(w, servo, step);
     w.step();
     if (step % 40 == 0) report(w, step);
   }
