@@ -23,6 +23,8 @@ void help_bench(std::ostream& out); ///< every option of the job
 std::function<int()> read_bench(const std::vector<std::string>& arguments);
 void help_bond(std::ostream& out); ///< every key of the job
 int run_bond(const JobOptions& options);
+void help_element(std::ostream& out);
+int run_element(const JobOptions& options);
 void help_pile(std::ostream& out);
 int run_pile(const JobOptions& options);
 void help_sample(std::ostream& out);
@@ -43,9 +45,11 @@ struct Job {
   bool reads_case() const { return std::holds_alternative<RunCase>(run); }
 };
 
-inline constexpr std::array<Job, 4> jobs{{
+inline constexpr std::array<Job, 5> jobs{{
     {"bench", "Measure what a step costs on this machine.", help_bench, read_bench},
     {"bond", "Drive one bonded pair of spheres along any path.", help_bond, run_bond},
+    {"element", "Lead a periodic cell of rock along any path of stress and strain.",
+     help_element, run_element},
     {"pile", "Install a pile in a coupled chamber of rock.", help_pile, run_pile},
     {"sample", "Make a specimen and write it to a file for later runs.", help_sample,
      run_sample},
