@@ -69,6 +69,7 @@ int run_element(const JobOptions& options)
   on_first_rank([&] { folder.check(inputs); });
 
   ElementRock rock = obtain_rock(file, c);
+  check_size(file, c, rock);
   const double width =
       c.size_effect.width > 0.0 ? c.size_effect.width : rock.cell.size.mean();
   const dem::PairMaterials materials = resolved_materials(c, width);
@@ -98,9 +99,9 @@ int run_element(const JobOptions& options)
   }
 
   s.critical = critical_states(c, s.last);
-  s.greatest_rate = run.greatest_rate();
+  s.greatest_rate = run.state().greatest_rate;
   s.n_steps = run.state().n_steps;
-  s.n_limited = run.n_limited();
+  s.n_limited = run.state().servo.n_limited;
   s.dt = run.state().dt;
   s.seconds = dem::wall_clock() - start;
   on_first_rank([&] { write_summary(folder.path() / "summary.json", s); });

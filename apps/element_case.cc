@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace mergel::apps {
@@ -143,7 +144,6 @@ void complete(const CaseFile& file, ElementCase& c)
     file.refuse("Specimen", "largest diameter", "must not be below `smallest diameter`");
   s.g_a = c.contact.g_a;
   s.scale = {c.S, c.S, 0.0, 1.0};
-  // Some three largest grains across are needed for find_pairs(); eight for any meaning.
   if (c.sample.empty() && dem::effective_solid_fraction(s) > 0.66)
     file.refuse(
         "Specimen", "porosity",
@@ -172,8 +172,7 @@ void complete(const CaseFile& file, ElementCase& c)
   std::istringstream folders(c.critical_text);
   for (std::string folder; folders >> folder;) {
     c.critical_states.emplace_back(folder);
-    if (!std::filesystem::exists(c.critical_states.back() / "summary.json") &&
-        !std::filesystem::exists(c.critical_states.back() / "history.csv"))
+    if (!std::filesystem::exists(c.critical_states.back() / "history.csv"))
       file.refuse("Analysis", "critical states", folder + " holds no results of a run");
   }
 }
@@ -215,6 +214,28 @@ ElementRock obtain_rock(const CaseFile& file, const ElementCase& c)
     file.refuse("Specimen", "file",
                 "is not a specimen of a periodic box: make one with `mergel sample`");
   return rock;
+}
+
+double list_skin(const dem::Particles& p)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const dem::Body& b : p.body) least = std::min(least, 2.0 * b.R / b.S);
+  return 0.3 * least;
+}
+
+void check_size(const CaseFile& file, const ElementCase& c, const ElementRock& rock)
+{
+  const double range = c.contact.g_a + list_skin(rock.particles);
+  double reach = 0.0;
+  for (const dem::Body& b : rock.particles.body)
+    reach = std::max(reach, b.R + 0.5 * range * b.S);
+  const double edge = rock.cell.size.minCoeff();
+  if (edge * (1.0 - c.strain_limit) < 4.0 * reach) // of find_pairs()
+    file.refuse(
+        "Loading", "strain limit",
+        "the cell, an edge of which is " + dem::shortest(1e3 * edge) +
+            " mm, would become shorter than twice the reach of its largest grains, " +
+            dem::shortest(4e3 * reach) + " mm: lower it, or take more grains");
 }
 
 dem::PairMaterials resolved_materials(const ElementCase& c, double width)

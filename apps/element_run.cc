@@ -12,7 +12,6 @@ namespace {
 constexpr std::size_t steps_between_checks = 100;
 constexpr std::size_t steps_of_ramp = 300;   ///< in which a leg gathers speed
 constexpr double most_over_driven = 10.0;    ///< of a held axis' rate
-constexpr double skin = 0.3;                 ///< of the lists over the smallest grain
 constexpr double least_stiffness = 1e-3;     ///< that the servo counts with, of the first
 constexpr double left_of_tension = 0.05;     ///< below which a specimen is pulled apart
 constexpr double tension_that_counts = 0.02; ///< of the reference pressure
@@ -47,17 +46,16 @@ ElementRun::ElementRun(const ElementCase& c, ElementRock rock,
   r.material = materials;
   r.motion.damping = c.damping;
   r.motion.free_rotation = c.free_rotation;
-  double d_least = std::numeric_limits<double>::infinity(), m = 0.0, V = 0.0, dV = 0.0;
+  double m = 0.0, V = 0.0, dV = 0.0;
   for (const dem::Body& b : r.particles.body) {
     const double v = dem::sphere_mass(b.R, 1.0);
-    d_least = std::min(d_least, 2.0 * b.R / b.S);
     m += b.m;
     V += v;
     dV += 2.0 * b.R * v;
   }
   d_ = dV / V;
   rho_ = m / V;
-  r.list = dem::VerletList(materials.contact.g_a, skin * d_least);
+  r.list = dem::VerletList(materials.contact.g_a, list_skin(r.particles));
   r.bonds = dem::make_bonds(r.particles, r.cell, std::move(rock.bonded));
   dem::share_out(r, MPI_COMM_WORLD);
   dem::add_forces(r, 0.0);
@@ -67,15 +65,15 @@ ElementRun::ElementRun(const ElementCase& c, ElementRock rock,
         "Specimen: no grain touches another and none is bonded: the rock has no "
         "stiffness");
   state_.size_0 = r.cell.size;
-  stiffness_0 = dem::affine_stiffness(r);
+  state_.stiffness_0 = dem::affine_stiffness(r);
   look_at_stiffness();
-  start_ = dem::energy_book(r, state_.dt);
+  state_.start = dem::energy_book(r, state_.dt);
 }
 
 void ElementRun::look_at_stiffness()
 {
   state_.servo.stiffness =
-      dem::affine_stiffness(state_.rock).cwiseMax(least_stiffness * stiffness_0);
+      dem::affine_stiffness(state_.rock).cwiseMax(least_stiffness * state_.stiffness_0);
 }
 
 dem::Vec3 ElementRun::stress() const
@@ -120,14 +118,14 @@ void ElementRun::step()
   const auto now = dem::soil_state(sigma, s.rock.cell.size, s.course.size_0);
   const double full = driven_rate(now);
   const auto n = static_cast<double>(std::min(s.n_in_leg + 1, steps_of_ramp));
-  rate_ = full * n / steps_of_ramp;
-  greatest_rate_ = std::max(greatest_rate_, rate_);
+  const double rate = full * n / steps_of_ramp;
+  s.greatest_rate = std::max(s.greatest_rate, rate);
   s.servo.limit = most_over_driven * full;
-  const dem::Vec3 rates = s.servo.rates(s.course.order(now, rate_), sigma, s.dt);
+  const dem::Vec3 rates = s.servo.rates(s.course.order(now, rate), sigma, s.dt);
   dem::advance(s.rock, s.dt_before, s.dt, [&](double) { s.rock.cell.rate = rates; });
   s.dt_before = s.dt;
   s.time += s.dt;
-  s.since_record += rate_ * s.dt;
+  s.since_record += rate * s.dt;
   ++s.n_steps;
   ++s.n_in_leg;
 
@@ -177,8 +175,8 @@ ElementRecord ElementRun::record()
   r.book = dem::energy_book(s.rock, s.dt);
   s.gross_work += std::abs(r.book.cell_work - s.last_work);
   s.last_work = r.book.cell_work;
-  const double scale = start_.stored() + s.gross_work;
-  r.energy_error = scale > 0.0 ? dem::unexplained(r.book, start_) / scale : 0.0;
+  const double scale = s.start.stored() + s.gross_work;
+  r.energy_error = scale > 0.0 ? dem::unexplained(r.book, s.start) / scale : 0.0;
   r.inertial_number =
       dem::inertial_number(s.rock.cell.rate.norm(), d_, rho_,
                            std::max(std::abs(r.whole.p()), case_.reference_pressure));

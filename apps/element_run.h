@@ -33,6 +33,9 @@ struct ElementState {
   std::size_t n_stress = 0;
   double gross_work = 0.0; ///< of the cell, by its magnitude from record to record [J]
   double last_work = 0.0;  ///< of the cell at the last record [J]
+  dem::EnergyBook start;   ///< before the first leg
+  dem::Vec3 stiffness_0 = dem::Vec3::Zero(); ///< affine, before the first leg [Pa]
+  double greatest_rate = 0.0;                ///< of the driven strain [1/s]
 };
 
 /// One line of history.csv; stresses and strains compression positive.
@@ -58,18 +61,14 @@ public:
   void set_out(std::size_t leg);
   /// One step.
   void step();
-  /// Whether the leg's goal is met, the rock failed, or it goes on. Failure is looked for when
-  /// a record is due, in means over the steps since the last.
+  /// Whether the leg's goal is met, the rock failed, or it goes on. Failure is looked for
+  /// when a record is due, in means over the steps since the last.
   Outcome outcome() const;
   bool record_is_due() const { return state_.since_record >= case_.record_every; }
   ElementRecord record();
 
   const ElementState& state() const { return state_; }
   double progress() const { return state_.farthest; }
-  double mean_diameter() const { return d_; } ///< by mass [m]
-  double rate() const { return rate_; } ///< of the driven strain in the last step [1/s]
-  double greatest_rate() const { return greatest_rate_; }
-  std::size_t n_limited() const { return state_.servo.n_limited; }
 
 private:
   dem::Vec3 stress() const;
@@ -79,10 +78,7 @@ private:
 
   const ElementCase& case_;
   ElementState state_;
-  dem::EnergyBook start_;
-  dem::Vec3 stiffness_0 = dem::Vec3::Zero();
-  double d_ = 0.0, rho_ = 0.0;
-  double rate_ = 0.0, greatest_rate_ = 0.0;
+  double d_ = 0.0, rho_ = 0.0; ///< mean diameter by mass [m], density of grains [kg/m^3]
 };
 
 } // namespace mergel::apps

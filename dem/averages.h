@@ -27,12 +27,12 @@ struct CellAverages {
 CellAverages cell_averages(const Rock& rock);
 
 /// Stiffness of the cell along its edges if every grain followed the strain [Pa]:
-/// 1/V sum L^2 [k_n n_a^4 + k_s n_a^2 (1 - n_a^2)] with the bonds' stiffness times 1 - D. The
-/// grains yield, so this bounds the stiffness of the cell held sideways (Voigt).
+/// 1/V sum L^2 [k_n n_a^4 + k_s n_a^2 (1 - n_a^2)] with the bonds' stiffness times 1 - D.
+/// The grains yield, so this bounds the stiffness of the cell held sideways (Voigt).
 Vec3 affine_stiffness(const Rock& rock);
 
-/// rate d sqrt(rho/p) [-]: time that pressure needs to move a grain into a void, over that of
-/// the strain. Below 1e-3 the motion is quasi-static. Source: GDR MiDi (2004), Eur. Phys. J.
+/// rate d sqrt(rho/p) [-]: time that pressure needs to move a grain into a void, over that
+/// of the strain. Below 1e-3 the motion is quasi-static. Source: GDR MiDi (2004), Eur. Phys. J.
 /// E 14, 341.
 double inertial_number(double rate, double d, double rho, double p);
 

@@ -23,8 +23,8 @@ std::optional<double> stress_at(const Curve& c, double strain);
 /// [Pa], Poisson's ratio if it is a lateral extension [-].
 std::optional<double> secant(const Curve& c, double from, double to);
 
-/// Where the curve first falls below the line of slope `modulus` that is moved by `offset` to
-/// larger strains: offset yield strength, ASTM E8/E8M, as used for the yield of
+/// Where the curve first falls below the line of slope `modulus` that is moved by `offset`
+/// to larger strains: offset yield strength, ASTM E8/E8M, as used for the yield of
 /// bonded soils in isotropic, oedometer and triaxial compression by Leroueil and Vaughan
 /// (1990), Geotechnique 40, 467. The line starts at the secant's own point: (from,
 /// stress there), so that a bedding error before it does not count.
@@ -59,8 +59,8 @@ struct CriticalState {
   double p, q, e;
 };
 
-/// e = Gamma - lambda (p/p_a)^0.7, Li and Wang (1998), J. Geotech. Geoenviron. Eng. 124, 1215,
-/// with p_a = 101325 Pa; slope is -lambda.
+/// e = Gamma - lambda (p/p_a)^0.7, Li and Wang (1998), J. Geotech. Geoenviron. Eng. 124,
+/// 1215, with p_a = 101325 Pa; slope is -lambda.
 std::optional<StraightLine> critical_state_line(const std::vector<CriticalState>& states);
 
 } // namespace mergel::dem

@@ -76,8 +76,8 @@ inline DrivenRock crystal(const LatticeCell& lattice, int n, double R, double ka
   return w;
 }
 
-/// A face-centred crystal of n^3 cells out of order: spheres of 0.8 to 0.9 R displaced by up to
-/// 0.05 R, which do not touch yet, in the bonds of Table 1 scaled to them, with friction. `place` is where grain k of the
+/// A face-centred crystal of n^3 cells out of order: spheres of 0.8 to 0.9 R displaced by up
+/// to 0.05 R, which do not touch yet, in bonds and with friction. `place` is where grain k of the
 /// crystal is put: its number and whole cells away from home.
 struct Place {
   std::vector<Index> number;

@@ -9,7 +9,7 @@ using namespace mergel::dem;
 
 namespace {
 
-/// Elastic with modulus E to the stress s_y, then with modulus E_t; a bedding error before it.
+/// Elastic with modulus E to the stress s_y, then with modulus E_t; a bedding error before.
 Curve bilinear(double E, double s_y, double E_t, double bedding)
 {
   Curve c;

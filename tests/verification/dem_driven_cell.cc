@@ -169,7 +169,8 @@ TEST_CASE(
     "Stress of Love and Weber is boundary work over strain, and traction on the faces",
     "[verification][dem]")
 {
-  // In the elastic range, slowly: what is stored and lost grows by sigma : eps V, axis by axis.
+  // In the elastic range, slowly: what is stored and lost grows by sigma : eps V, axis by
+  // axis.
   for (int axis = 0; axis < 3; ++axis) {
     DrivenRock w = disordered_rock(4);
     w.rock.motion.damping = 0.9;
