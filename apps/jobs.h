@@ -26,6 +26,8 @@ void help_bench(std::ostream& out); ///< every option of the job
 std::function<int()> read_bench(const std::vector<std::string>& arguments);
 void help_bond(std::ostream& out); ///< every key of the job
 int run_bond(const JobOptions& options);
+void help_element(std::ostream& out);
+int run_element(const JobOptions& options);
 void help_info(std::ostream& out);
 std::function<int()> read_info(const std::vector<std::string>& arguments);
 void help_pile(std::ostream& out);
@@ -48,9 +50,11 @@ struct Job {
   bool reads_case() const { return std::holds_alternative<RunCase>(run); }
 };
 
-inline constexpr std::array<Job, 5> jobs{{
+inline constexpr std::array<Job, 6> jobs{{
     {"bench", "Measure what a step costs on this machine.", help_bench, read_bench},
     {"bond", "Drive one bonded pair of spheres along any path.", help_bond, run_bond},
+    {"element", "Lead a periodic cell of rock along any path of stress and strain.",
+     help_element, run_element},
     {"info", "Say what a sample, checkpoint or results folder is.", help_info, read_info},
     {"pile", "Install a pile in a coupled chamber of rock.", help_pile, run_pile},
     {"sample", "Make a specimen and write it to a file for later runs.", help_sample,

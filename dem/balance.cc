@@ -32,6 +32,7 @@ EnergyBook energy_book(const Rock& rock, double dt)
   e.gravity = work.gravity.value();
   e.wall_work = rock.wall_work.value() + 0.5 * dt * power.walls;
   e.pile_work = rock.pile_work.value() + 0.5 * dt * power.pile;
+  e.cell_work = rock.cell_work.value() + 0.5 * dt * cell_power(rock);
 
   e.slip = losses.slip.value();
   e.plastic = losses.plastic.value();

@@ -8,11 +8,11 @@ namespace mergel::dem {
 /// All terms [J], at the whole step of the positions.
 struct EnergyBook {
   double kinetic = 0.0, bonds = 0.0, contacts = 0.0, walls = 0.0, mirror = 0.0; ///< stored
-  double gravity = 0.0, wall_work = 0.0, pile_work = 0.0;                       ///< put in
+  double gravity = 0.0, wall_work = 0.0, pile_work = 0.0, cell_work = 0.0;      ///< put in
   double slip = 0.0, plastic = 0.0, residue = 0.0, lock = 0.0, damping = 0.0;   ///< lost
 
   double stored() const { return kinetic + bonds + contacts + walls + mirror; }
-  double put_in() const { return gravity + wall_work + pile_work; }
+  double put_in() const { return gravity + wall_work + pile_work + cell_work; }
   double lost() const { return slip + plastic + residue + lock + damping; }
 };
 

@@ -229,6 +229,9 @@ Rock whole(Rock& rock, bool compare)
   sums.run(rock.domain);
   all.losses.broken = rock.domain.sum(rock.losses.broken);
   all.losses.yielded = rock.domain.sum(rock.losses.yielded);
+  for (std::size_t k = 0; k < n_break_modes; ++k)
+    all.losses.broken_by[k] = rock.domain.sum(rock.losses.broken_by[k]);
+  all.losses.virial = rock.virial;
   all.losses.breakages = gathered_by(rock.domain, rock.losses.breakages,
                                      [](const Breakage& b) { return b.pair; });
 

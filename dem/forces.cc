@@ -112,6 +112,24 @@ void shift_images(const std::vector<Pair>& pairs, const std::size_t* which,
   }
 }
 
+/// In a driven cell v is the motion against the cell: give j what the cell moves it against i.
+[[gnu::always_inline]] inline void add_cell_motion(const Vec3& rate, const End<Lanes>& i,
+                                                   End<Lanes>& j)
+{
+  const Triple<Lanes> r = j.x - i.x;
+  j.v += {r.x * rate.x(), r.y * rate.y(), r.z * rate.z()};
+}
+
+/// Apart from the loops and by value, so that a cell that is not driven pays nothing for it.
+/// @param r from i to j; @param F force on i
+[[gnu::noinline]] void add_virial(Triple<Lanes> r, Triple<Lanes> F, const Batch& q,
+                                  const Particles& p, PairLosses& losses)
+{
+  const Triple<Lanes> w{F.x * r.x, F.y * r.y, F.z * r.z};
+  for (int l = 0; l < q.count; ++l)
+    if (p.owns(q.i[l])) losses.virial.add(vec3(lane(w, l)));
+}
+
 void prefetch(const Particles& p, Index j)
 {
   const char* b = reinterpret_cast<const char*>(&p.body[j]);
@@ -152,7 +170,10 @@ void return_lanes(const Law& b, const BondShape<Lanes>& s, const Lanes& S,
     if (!counts) continue;
     losses.residue.add(r.residue);
     ++losses.broken;
-    losses.breakages.push_back({pairs[l], 0.5 * (p.body[q.i[l]].x + p.body[q.j[l]].x)});
+    const BreakMode mode = break_mode(b, shape, r.loads);
+    ++losses.broken_by[static_cast<std::size_t>(mode)];
+    losses.breakages.push_back(
+        {pairs[l], 0.5 * (p.body[q.i[l]].x + p.body[q.j[l]].x), mode});
   }
 }
 
@@ -170,7 +191,8 @@ void add_forces_of(const Law& law, const LinearMaterial& contact_law,
 {
   const Law bond = law; // copies: no store below can change them
   const LinearMaterial beside = contact_law;
-  const bool is_periodic = cell.is_periodic();
+  const bool is_periodic = cell.is_periodic(), is_driven = cell.is_driven;
+  const Vec3 rate = cell.rate;
   const std::size_t n = bonds.size();
   for (std::size_t first = 0; first < n; first += n_lanes) {
     for (std::size_t a = first + prefetch_ahead; a < first + prefetch_ahead + n_lanes; ++a)
@@ -180,6 +202,7 @@ void add_forces_of(const Law& law, const LinearMaterial& contact_law,
     const End<Lanes> i = gather(p.body.data(), q.i);
     End<Lanes> j = gather(p.body.data(), q.j);
     if (is_periodic) shift_images(bonds.pairs, nullptr, first, q, cell, j.x);
+    if (is_driven) add_cell_motion(rate, i, j);
     const PairMotion<Lanes> k = pair_motion(i, j, dt);
 
     BondBlock& h = bonds.blocks[first / n_lanes];
@@ -213,6 +236,7 @@ void add_forces_of(const Law& law, const LinearMaterial& contact_law,
         k.n * (h.intact * N - contact.f_n) + h.V * h.intact + contact.f_s;
     const Triple<Lanes> on_i = (h.M + k.n * h.T) * h.intact;
     scatter(p.load.data(), q.i, q.j, q.count, to_rows(k, F, on_i));
+    if (is_driven) add_virial(k.n * (k.a_i + k.a_j), F, q, p, losses);
   }
 }
 
@@ -266,7 +290,8 @@ void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, do
 void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell, double dt,
                         Particles& p, Contacts& contacts, PairLosses& losses)
 {
-  const bool is_periodic = cell.is_periodic();
+  const bool is_periodic = cell.is_periodic(), is_driven = cell.is_driven;
+  const Vec3 rate = cell.rate;
   const std::size_t n = contacts.pairs.size();
 
   static thread_local std::vector<std::size_t> touching;
@@ -284,6 +309,7 @@ void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell
     const End<Lanes> i = gather(p.body.data(), q.i);
     End<Lanes> j = gather(p.body.data(), q.j);
     if (is_periodic) shift_images(contacts.pairs, which, first, q, cell, j.x);
+    if (is_driven) add_cell_motion(rate, i, j);
     const PairMotion<Lanes> k = pair_motion(i, j, dt);
 
     Row shear[n_lanes];
@@ -304,6 +330,7 @@ void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell
     const Triple<Lanes> F = contact.f_s - k.n * contact.f_n;
     const Rows rows = to_rows(k, F, Triple<Lanes>{});
     scatter(p.load.data(), q.i, q.j, q.count, rows);
+    if (is_driven) add_virial(k.n * (k.a_i + k.a_j), F, q, p, losses);
     for (int l = 0; l < q.count; ++l)
       contacts.shear[which[first + static_cast<std::size_t>(l)]].f_s =
           vec3(lane(contact.f_s, l));

@@ -5,12 +5,15 @@
 #include "dem/contacts.h"
 #include "dem/exact_sum.h"
 
+#include <array>
+
 namespace mergel::dem {
 
-/// Where a bond between grains broke.
+/// Where a bond between grains broke, and of what.
 struct Breakage {
   Pair pair;
   Vec3 x = Vec3::Zero(); ///< half way between the centres [m]
+  BreakMode mode = BreakMode::tension;
 };
 
 /// What pairs and walls dissipate and how many bonds break. A pair counts where its first
@@ -22,6 +25,10 @@ struct PairLosses {
   std::size_t broken = 0;
   std::size_t yielded = 0;         ///< bonds that yielded, summed over steps
   std::vector<Breakage> breakages; ///< of bonds between grains, in no order
+  std::array<std::size_t, n_break_modes> broken_by{}; ///< of these, by mode
+  /// In a driven cell, diagonal of sum F (x) r of the last step: volume times stress, tension
+  /// positive [J].
+  ExactVector<EnergySum> virial;
 };
 
 /// Both materials of a pair: of the bond and of the contact beside it.

@@ -237,7 +237,8 @@ double VerletList::travel(const Particles& p) const
   double most2 = 0.0; // of the motion over S
   p.for_owned([&](Index i) {
     const double S = p.body[i].S;
-    most2 = std::max(most2, (p.body[i].x - x_built_[i]).squaredNorm() / (S * S));
+    most2 = std::max(
+        most2, (p.body[i].x - x_built_[i].cwiseProduct(stretch_)).squaredNorm() / (S * S));
   });
   return std::sqrt(most2);
 }
@@ -259,10 +260,14 @@ void VerletList::rebuild(const Particles& p, const PeriodicCell& cell, const Bon
   contacts = std::move(fresh);
   x_built_.resize(p.size());
   least_skin_ = std::numeric_limits<double>::infinity();
+  double largest = 0.0; // (R_i + R_j)/((S_i + S_j)/2) is at most twice the largest R/S
   for (std::size_t i = 0; i < p.size(); ++i) {
     x_built_[i] = p.body[i].x;
     least_skin_ = std::min(least_skin_, skin_ * p.body[i].S);
+    largest = std::max(largest, p.body[i].R / p.body[i].S);
   }
+  longest_reach_ = 2.0 * largest + g_a_ + skin_;
+  stretch_ = Vec3::Ones();
   travel_ = 0.0;
   ++n_builds_;
 }

@@ -4,6 +4,8 @@
 #include "dem/bonds.h"
 #include "dem/contacts.h"
 
+#include <algorithm>
+
 namespace mergel::dem {
 
 /// Every pair with gap < range (S_i + S_j)/2 that touches an owned grain, ascending. Cells by size class, a factor of
@@ -15,7 +17,8 @@ namespace mergel::dem {
 std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, double range);
 
 /// Verlet list: the pairs within g_a + skin, good until some particle has moved by half its
-/// skin.
+/// skin against the cell. A strain of the cell brings pairs nearer besides and takes its
+/// share of the skin.
 ///
 /// A rebuild is unobservable: it adds and removes only pairs that do not act, and history
 /// stays with its pair.
@@ -27,20 +30,27 @@ public:
   /// Tell that since the last call no particle, of any rank, moved by more than `most` S [m].
   /// Whoever moves particles tells it, or invalidates the list.
   void add_motion(double most) { travel_ += most; }
+  /// Tell that the cell carried all particles along, its edges growing by these factors.
+  void add_strain(const Vec3& growth)
+  {
+    stretch_ = stretch_.cwiseProduct(growth);
+    travel_ *= std::max(1.0, growth.maxCoeff());
+  }
 
   /// True when the motions told since the last build allow a particle to have moved by half
   /// its skin, or there was no build.
   bool may_be_stale(const Particles& p) const
   {
-    return x_built_.size() != p.size() || travel_ > 0.5 * skin_;
+    return x_built_.size() != p.size() || travel_ > allowance();
   }
-  /// Largest motion over S of an owned particle since the last build [m]; infinite without.
+  /// Largest motion over S of an owned particle against the cell since the last build [m];
+  /// infinite without.
   double travel(const Particles& p) const;
   /// The greatest travel() of all ranks: true when a particle moved by half its skin.
   bool is_stale(double greatest)
   {
     travel_ = greatest;
-    return travel_ > 0.5 * skin_;
+    return travel_ > allowance();
   }
   /// The same on one rank.
   bool is_stale(const Particles& p) { return may_be_stale(p) && is_stale(travel(p)); }
@@ -57,10 +67,21 @@ public:
   std::size_t n_builds() const { return n_builds_; }
 
 private:
+  /// Half of the skin that the strain has left: a pair that was not listed is nearer by the
+  /// greatest shortening at most, so with distances over S
+  ///   (1 - shortening) (reach + skin) - 2 travel >= reach
+  double allowance() const
+  {
+    const double shortening = std::max(0.0, 1.0 - stretch_.minCoeff());
+    return 0.5 * (skin_ - shortening * longest_reach_);
+  }
+
   double g_a_, skin_;
   std::vector<Vec3> x_built_;
-  double least_skin_ = 0.0; ///< [m]
-  double travel_ = 0.0;     ///< bound of the motion over S since the last build [m]
+  Vec3 stretch_ = Vec3::Ones(); ///< edges of the cell over those at the last build
+  double longest_reach_ = 0.0;  ///< greatest (R_i + R_j)/S, with g_a + skin [m]
+  double least_skin_ = 0.0;     ///< [m]
+  double travel_ = 0.0;         ///< bound of the motion over S since the last build [m]
   std::size_t n_builds_ = 0;
 };
 

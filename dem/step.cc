@@ -32,6 +32,15 @@ void sum_wall_forces(Rock& rock)
   sums.run(rock.domain);
 }
 
+void sum_virial(Rock& rock)
+{
+  if (!rock.cell.is_driven) return;
+  rock.virial = rock.losses.virial;
+  ExactReduction sums;
+  sums.add(rock.virial);
+  sums.run(rock.domain);
+}
+
 /// Half of the skin belongs to the particles, half to the walls. The same on all ranks.
 bool lists_are_stale(Rock& rock)
 {
@@ -87,6 +96,7 @@ void add_forces(Rock& rock, double dt)
   for (Wall& w : rock.walls) update_normals(w);
   if (lists_are_stale(rock)) rebuild_lists(rock); // walls are the same on all ranks
   clear_loads(p);
+  rock.losses.virial.clear();
   lap(rock.times.lists);
 
   add_bond_forces(rock.material, rock.cell, dt, p, rock.bonds, rock.losses);
@@ -104,6 +114,7 @@ void add_forces(Rock& rock, double dt)
   for (const Mirror& m : rock.mirrors) hold_mirror_spin(m, p);
   lap(rock.times.walls);
   sum_wall_forces(rock);
+  sum_virial(rock);
   lap(rock.times.exchange);
 }
 
@@ -158,6 +169,11 @@ WallPower wall_power(const Rock& rock)
   for (const PileWall& w : rock.piles)
     power.pile -= (w.load.cone.z.value() + w.load.shaft.z.value()) * w.pile.v_z;
   return power;
+}
+
+double cell_power(const Rock& rock)
+{
+  return rock.cell.is_driven ? rock.virial.value().dot(rock.cell.rate) : 0.0;
 }
 
 } // namespace mergel::dem

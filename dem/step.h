@@ -55,8 +55,8 @@ struct StepTimes {
 /// list.
 ///
 /// On several ranks each holds all grains, and of bonds, contacts and walls what touches its
-/// own (distribute.h). Losses and works are of owned grains, but for wall_work and pile_work,
-/// which every rank knows in full.
+/// own (distribute.h). Losses and works are of owned grains, but for wall_work, pile_work and
+/// cell_work, which every rank knows in full.
 struct Rock {
   Domain domain;
   Particles particles;
@@ -77,6 +77,8 @@ struct Rock {
   KickWork work;
   EnergySum wall_work; ///< done on the rock by planes and triangulated walls that move [J]
   EnergySum pile_work; ///< done on the rock by the pile [J]
+  EnergySum cell_work; ///< done on the rock by a driven cell [J]
+  ExactVector<EnergySum> virial; ///< of a driven cell in the last step, of all ranks [J]
   StepTimes times;
 };
 
@@ -88,10 +90,10 @@ void add_forces(Rock& rock, double dt);
 /// Make all lists anew for the present positions, whatever their age: it changes no force.
 void rebuild_lists(Rock& rock);
 
-/// kick, drift, move the walls by `move_walls(dt)`, forces.
+/// kick, drift, move the walls by `move_walls(dt)`, strain a driven cell, forces.
 ///
 /// The walls hold v^{n-1/2} before and v^{n+1/2} after move_walls, which also moves them to
-/// x^{n+1}.
+/// x^{n+1}; it may set the rate of the cell too.
 /// @param dt_before the step before [s]; the kick uses the mean of both
 template <class MoveWalls>
 void advance(Rock& rock, double dt_before, double dt, MoveWalls&& move_walls);
@@ -113,6 +115,10 @@ struct WallPower {
 };
 WallPower wall_power(const Rock& rock);
 
+/// Power of a driven cell on the rock, from the virial of the last step at the present rate
+/// [W]; 0 of any other.
+double cell_power(const Rock& rock);
+
 /// Seconds since any instant.
 double wall_clock();
 
@@ -128,10 +134,15 @@ void advance(Rock& rock, double dt_before, double dt, MoveWalls&& move_walls)
   rock.times.exchange += wall_clock() - moved;
   // Work of the forces at t^n on the mean motion of the walls around t^n.
   const WallPower before = wall_power(rock);
+  const double cell_before = cell_power(rock);
   move_walls(dt);
   const WallPower after = wall_power(rock);
   rock.wall_work.add(0.5 * dt_kick * (before.walls + after.walls));
   rock.pile_work.add(0.5 * dt_kick * (before.pile + after.pile));
+  if (rock.cell.is_driven) {
+    rock.cell_work.add(0.5 * dt_kick * (cell_before + cell_power(rock)));
+    rock.list.add_strain(strain(rock.cell, dt, rock.particles));
+  }
   add_forces(rock, dt);
 }
 

@@ -212,11 +212,14 @@ void put_breakages(State& state, const PairLosses& losses)
 {
   PairColumns pairs;
   std::vector<double> x;
+  std::vector<std::int32_t> mode;
   for (const Breakage& b : losses.breakages) {
     pairs.append(b.pair);
     append(x, b.x);
+    mode.push_back(static_cast<std::int32_t>(b.mode));
   }
   pairs.put(state, "breakage");
+  state.add("breakage_modes", std::move(mode));
   state.add("breakage_places", std::move(x), 3);
 }
 
@@ -224,9 +227,13 @@ std::vector<Breakage> take_breakages(const State& state, std::size_t n)
 {
   const std::vector<Pair> pairs = take_pairs(state, "breakage", n);
   const auto& x = state.get_rows<double>("breakage_places", pairs.size(), 3);
+  const auto& mode = state.get_rows<std::int32_t>("breakage_modes", pairs.size());
   std::vector<Breakage> breakages;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    breakages.push_back({pairs[k], vec_at(x, 3 * k)});
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (mode[k] < 0 || mode[k] >= static_cast<std::int32_t>(n_break_modes))
+      State::refuse("breakage_modes", "names a load that there is not");
+    breakages.push_back({pairs[k], vec_at(x, 3 * k), static_cast<BreakMode>(mode[k])});
+  }
   return breakages;
 }
 
@@ -391,7 +398,9 @@ std::vector<ExactWide*> sums_of_ranks(Rock& rock)
 /// What every rank knows in full.
 std::vector<ExactWide*> sums_of_all(Rock& rock)
 {
-  std::vector<ExactWide*> sums{&rock.wall_work.raw(), &rock.pile_work.raw()};
+  std::vector<ExactWide*> sums{&rock.wall_work.raw(), &rock.pile_work.raw(),
+                               &rock.cell_work.raw()};
+  append(sums, rock.virial);
   for (PlaneWall& w : rock.planes) append(sums, w.force);
   for (Wall& w : rock.walls)
     for (VectorSum& f : w.f) append(sums, f);
@@ -412,6 +421,8 @@ Rock copy_of_sums(const Rock& rock)
   copy.work = rock.work;
   copy.wall_work = rock.wall_work;
   copy.pile_work = rock.pile_work;
+  copy.cell_work = rock.cell_work;
+  copy.virial = rock.virial;
   for (const Mirror& m : rock.mirrors) {
     copy.mirrors.emplace_back();
     copy.mirrors.back().energy = m.energy;
@@ -448,8 +459,10 @@ void put(State& state, const Rock& rock)
   put_bonds(state, p, rock.bonds);
   put_contacts(state, p, rock.contacts);
   put_breakages(state, rock.losses);
-  state.add_common<double>("cell",
-                           {rock.cell.size.x(), rock.cell.size.y(), rock.cell.size.z()}, 3);
+  std::vector<double> cell;
+  for (const Vec3& a : {rock.cell.size, rock.cell.rate}) append(cell, a);
+  state.add_common("cell", std::move(cell), 6);
+  state.add_common<std::uint64_t>("cell_is_driven", {rock.cell.is_driven ? 1u : 0u});
   for (std::size_t k = 0; k < rock.mirrors.size(); ++k)
     put_mirror(state, numbered("mirror", k), rock.mirrors[k]);
   for (std::size_t k = 0; k < rock.planes.size(); ++k) {
@@ -472,6 +485,9 @@ void put(State& state, const Rock& rock)
   state.add_common<std::uint64_t>(
       "bonds_broken_and_yielded",
       {rock.domain.sum(rock.losses.broken), rock.domain.sum(rock.losses.yielded)});
+  std::vector<std::uint64_t> broken_by;
+  for (const std::size_t k : rock.losses.broken_by) broken_by.push_back(rock.domain.sum(k));
+  state.add_common("bonds_broken_by_mode", std::move(broken_by));
 
   Rock copy = copy_of_sums(rock);
   ExactReduction all;
@@ -498,7 +514,10 @@ void take(const State& state, Rock& rock)
   const std::size_t n = rock.particles.size();
   rock.bonds = take_bonds(state, n);
   rock.contacts = take_contacts(state, n);
-  rock.cell.size = vec_at(state.get_rows<double>("cell", 1, 3), 0);
+  const auto& cell = state.get_rows<double>("cell", 1, 6);
+  rock.cell.size = vec_at(cell, 0);
+  rock.cell.rate = vec_at(cell, 3);
+  rock.cell.is_driven = state.get_rows<std::uint64_t>("cell_is_driven", 1)[0] != 0;
   for (std::size_t k = 0; k < rock.mirrors.size(); ++k)
     take_mirror(state, numbered("mirror", k), n, rock.mirrors[k]);
   for (std::size_t k = 0; k < rock.planes.size(); ++k) {
@@ -517,6 +536,9 @@ void take(const State& state, Rock& rock)
   const auto& counts = state.get_rows<std::uint64_t>("bonds_broken_and_yielded", 2);
   rock.losses.broken = counts[0];
   rock.losses.yielded = counts[1];
+  const auto& broken_by =
+      state.get_rows<std::uint64_t>("bonds_broken_by_mode", n_break_modes);
+  std::copy(broken_by.begin(), broken_by.end(), rock.losses.broken_by.begin());
   rock.losses.breakages = take_breakages(state, n);
   take_sums(state, "sums_over_grains", sums_of_ranks(rock));
   take_sums(state, "sums_on_walls", sums_of_all(rock));

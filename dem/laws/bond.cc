@@ -205,6 +205,19 @@ double yield_value(const DamageBond& b, const BondShape<double>& s,
                          std::sqrt(dot(q.M, q.M)) / strength.M});
 }
 
+BreakMode break_mode(const DamageBond& b, const BondShape<double>& s,
+                     const EffectiveLoads<double>& q)
+{
+  const BondStrength strength = bond_strength(b, s, q.N);
+  const double n = q.N / strength.N, n2 = n * n;
+  const double v2 = dot(q.V, q.V) / (strength.V * strength.V);
+  const double m = std::sqrt(dot(q.M, q.M)) / strength.M;
+  const double shear = n2 + v2 < 1.0 ? v2 * v2 / (1.0 - n2) : v2; // 1 - n2 > v2 >= 0
+  if (m >= n2 && m >= shear) return BreakMode::bending;
+  if (shear >= n2) return BreakMode::shear;
+  return q.N > 0.0 ? BreakMode::tension : BreakMode::compression;
+}
+
 BondReturn return_bond(const DamageBond& b, const BondShape<double>& s, double S,
                        const BondState& state, const EffectiveLoads<double>& old,
                        const EffectiveLoads<double>& trial)

@@ -144,6 +144,12 @@ inline SingleStrengths single_strengths(const DamageBond& b, const BondShape<dou
   return {pull.N, push.N, pull.V, pull.M};
 }
 
+/// The largest term of the yield function under the effective loads at breakage: m is bending,
+/// n^2 tension or compression by the sign of N, v^4/(1 - n^2) shear (v^2 on the edge m = 0
+/// and beyond, where both terms are continued).
+BreakMode break_mode(const DamageBond& b, const BondShape<double>& s,
+                     const EffectiveLoads<double>& q);
+
 /// The continued yield function under these effective loads [-].
 double yield_value(const DamageBond& b, const BondShape<double>& s,
                    const EffectiveLoads<double>& q);

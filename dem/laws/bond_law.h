@@ -29,6 +29,7 @@ concept IsBondLaw =
   { is_elastic(law, shape, loads) } -> std::convertible_to<bool>;
   { return_bond(law, shape, S, state, loads, loads) } -> std::same_as<BondReturn>;
   { yield_value(law, shape, loads) } -> std::same_as<double>;
+  { break_mode(law, shape, loads) } -> std::same_as<BreakMode>;
   { single_strengths(law, shape) } -> std::same_as<SingleStrengths>;
 };
 // clang-format on

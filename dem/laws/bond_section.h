@@ -4,6 +4,8 @@
 #include "dem/error.h"
 #include "dem/lanes.h"
 
+#include <cstddef>
+
 namespace mergel::dem {
 
 /// Whether a bond resists twisting about its normal.
@@ -85,6 +87,10 @@ struct SingleStrengths {
   double tension, compression, shear; ///< [N]
   double moment;                      ///< bending [N m]
 };
+
+/// Which load broke a bond: each law says by what measure it is the greatest.
+enum class BreakMode { tension, compression, shear, bending };
+inline constexpr std::size_t n_break_modes = 4;
 
 /// State of a bond that its law carries from step to step, beside its effective loads.
 struct BondState {

@@ -76,6 +76,16 @@ inline double yield_value(const ParallelBond& b, const BondShape<double>& s,
   return std::max(at.sigma / b.sigma_c, at.tau / b.tau_c) - 1.0;
 }
 
+/// Shear where tau is nearer to its strength than sigma; else the greater part of sigma.
+inline BreakMode break_mode(const ParallelBond& b, const BondShape<double>& s,
+                            const EffectiveLoads<double>& q)
+{
+  const RimStress<double> at = rim_stress(s, q);
+  if (at.tau * b.sigma_c > at.sigma * b.tau_c) return BreakMode::shear;
+  const double bending = 4.0 * sqrt(dot(q.M, q.M));
+  return bending > q.N * s.R_b ? BreakMode::bending : BreakMode::tension;
+}
+
 /// The bond is gone, and with it the energy that it stored: nothing in it depends on S.
 inline BondReturn return_bond(const ParallelBond&, const BondShape<double>& s, double,
                               const BondState& state, const EffectiveLoads<double>& old,

@@ -17,7 +17,7 @@ fail() { echo "FAILED: $*"; exit 1; }
 # A rank that waits for one that has failed would wait for ever.
 ranks() { local n=$1; shift; timeout 300 mpirun --oversubscribe -n "$n" "$@"; }
 
-for scene in block turning periodic; do
+for scene in block turning periodic element; do
   ranks 1 "$scenes" "$scene" >one || fail "$scene on one rank"
   [ "$(wc -l <one)" -eq 10 ] || fail "$scene: ten lines on one rank"
   ranks 1 "$scenes" "$scene" rebuild >other || fail "$scene with rebuilds"
@@ -48,6 +48,16 @@ done
 broken=$(awk -F': ' '/"bonds broken/ { print $2 + 0 }' pile1/summary.json)
 [ "$broken" -gt 20 ] || fail "the pile broke only $broken bonds"
 echo "pile: $broken broken, the same history and grains on 1, 2, 3, 4, 8 ranks"
+
+# An element test with a servo, unloading included.
+element=(--set "Specimen/particles=400" --set "Loading/leg 2=triaxial to axial strain = 0.6 %"
+  --set "Loading/leg 3=unload-reload to q = 0.5 MPa" --set "Loading/leg 4=resume to axial strain = 0.7 %")
+for n in 1 2 3 4; do
+  ranks $n "$mergel" element "$root/apps/cases/element_small.prm" "${element[@]}" --output "element$n" >log 2>&1 ||
+    fail "the element test on $n ranks: $(tail -3 log)"
+  cmp element1/history.csv "element$n/history.csv" || fail "the element test on $n ranks differs from one"
+done
+echo "element: the same history on 1, 2, 3, 4 ranks"
 
 # A rank that fails takes the others down, and says which it is.
 code=0

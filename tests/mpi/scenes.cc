@@ -5,17 +5,20 @@
 ///   block      bonded, free faces, squeezed until bonds break
 ///   turning    the same block, turning and flying across the borders of the ranks
 ///   periodic   a periodic box of bonded and unbonded grains, stirred until bonds break
+///   element    the same box, squeezed along z until bonds break while its sides hold a stress
 ///   rebuild    lists are built at every 7th step besides
 ///   rebalance  grains change ranks at every 50th step, by weights that make no sense;
 ///              doubled histories are compared
 ///   restart    go on from this checkpoint, on any number of ranks
 ///   stop       write this checkpoint behind this step, and stop
 #include "apps/workloads.h"
+#include "dem/averages.h"
 #include "dem/balance.h"
 #include "dem/distribute.h"
 #include "dem/io/checkpoint.h"
 #include "dem/io/rock_state.h"
 #include "dem/random.h"
+#include "dem/servo.h"
 
 #include <cinttypes>
 #include <cstdio>
@@ -73,7 +76,7 @@ apps::WorkingRock make(const std::string& name)
 {
   apps::WorkloadSpec spec;
   spec.n_particles = 3000;
-  if (name == "periodic") {
+  if (name == "periodic" || name == "element") {
     spec.workload = apps::Workload::frictional_packing;
     apps::WorkingRock w = apps::make_workload(spec);
     // Two thirds of what touches is bonded.
@@ -83,7 +86,8 @@ apps::WorkingRock make(const std::string& name)
     w.rock.bonds = make_bonds(w.rock.particles, w.rock.cell, bonded);
     w.rock.contacts = {};
     w.rock.list.invalidate();
-    stir(w.rock, 10.0);
+    if (name == "periodic") stir(w.rock, 10.0);
+    w.rock.cell.is_driven = name == "element";
     return w;
   }
   if (name != "block" && name != "turning") throw std::invalid_argument("no scene " + name);
@@ -114,18 +118,32 @@ std::uint64_t checksum_of_histories(const Rock& rock)
   return sum;
 }
 
+/// Sides that hold a stress while the box is squeezed.
+void squeeze(apps::WorkingRock& w, Servo& servo, int step)
+{
+  if (step % 100 == 1) servo.stiffness = affine_stiffness(w.rock);
+  servo.limit = 1e-4 / w.dt;
+  const Vec3 sigma = w.rock.virial.value() / w.rock.cell.volume();
+  w.rock.cell.rate = servo.rates(
+      CellOrder{AxisOrder{true, -2e7, 0.0}, {true, -1e7, 0.0}, {false, 0.0, -3e-5 / w.dt}},
+      sigma, w.dt);
+}
+
 void report(apps::WorkingRock& w, int step)
 {
   const EnergyBook e = energy_book(w.rock, w.dt);
   const double unbalanced = unbalanced_ratio(w.rock);
+  const CellAverages c = w.rock.cell.is_driven ? cell_averages(w.rock) : CellAverages{};
   const Rock all = whole(w.rock);
   if (w.rock.domain.rank() != 0) return;
-  std::printf("%4d %016" PRIx64 " %016" PRIx64
-              " broken %zu yielded %zu dt %a unbalanced %a "
-              "kinetic %a bonds %a contacts %a plastic %a residue %a slip %a damping %a\n",
-              step, apps::checksum(all.particles), checksum_of_histories(all),
-              all.losses.broken, all.losses.yielded, w.dt, unbalanced, e.kinetic, e.bonds,
-              e.contacts, e.plastic, e.residue, e.slip, e.damping);
+  std::printf(
+      "%4d %016" PRIx64 " %016" PRIx64 " broken %zu yielded %zu dt %a unbalanced %a "
+      "kinetic %a bonds %a contacts %a plastic %a residue %a slip %a damping %a "
+      "cell work %a stress %a %a traction %a edges %a %a\n",
+      step, apps::checksum(all.particles), checksum_of_histories(all), all.losses.broken,
+      all.losses.yielded, w.dt, unbalanced, e.kinetic, e.bonds, e.contacts, e.plastic,
+      e.residue, e.slip, e.damping, e.cell_work, c.stress(0, 0), c.stress(1, 2),
+      c.traction.z(), all.cell.size.x(), all.cell.size.z());
 }
 
 struct Options {
@@ -164,10 +182,12 @@ void run(const std::string& name, const Options& o)
     add_forces(w.rock, 0.0);
   else
     rebuild_lists(w.rock);
+  Servo servo;
   for (int step = static_cast<int>(w.n_steps - n_before) + 1; step <= o.stop; ++step) {
     if (rebuilds && step % 7 == 0) w.rock.list.invalidate();
     if (rebalances && step % 50 == 0)
       rebalance(w.rock, 1.0 + (step / 50 + w.rock.domain.rank()) % 3, true);
+    if (w.rock.cell.is_driven) squeeze(w, servo, step);
     w.step();
     if (step % 40 == 0) report(w, step);
   }

@@ -1,0 +1,301 @@
+#include "apps/element_case.h"
+
+#include "apps/units.h"
+#include "apps/words.h"
+#include "dem/io/history.h"
+#include "dem/periodic_packing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace mergel::apps {
+
+namespace {
+
+constexpr std::size_t most_legs = 12;
+
+std::string key_of_leg(std::size_t k)
+{
+  return "leg " + std::to_string(k + 1);
+}
+
+void declare_specimen(CaseFile& file, ElementCase& c)
+{
+  const auto section = file.section("Specimen");
+  dem::SpecimenSpec& s = c.specimen;
+  s.d_min = s.d_max = s.rho = s.porosity = s.coordination = s.g_b = unset;
+  c.S = unset;
+  file.path(
+      "file", c.sample,
+      "A periodic specimen made before by mergel sample, which then has the grains, their "
+      "upscaling ratio and the bonds; empty: a random packing of the keys below.");
+  file.integer("particles", c.n_particles, between(200, 1e6),
+               "Grains of a random packing.");
+  file.quantity("smallest diameter", s.d_min, "m", positive,
+                "Smallest grain at S = 1, d00; diameters are uniform in number.", "mm");
+  file.quantity("largest diameter", s.d_max, "m", positive, "Largest grain at S = 1.",
+                "mm");
+  file.number("upscaling ratio", c.S, positive,
+              "S of all grains of a random packing: diameters, u_c, g_a and g_b scale with "
+              "it, Eq. 8.");
+  file.quantity("grain density", s.rho, "kg/m3", positive,
+                "Density of the grains, not of the rock.");
+  file.number("porosity", s.porosity, inside(0.0, 1.0),
+              "Of a random packing, by true sphere volumes.");
+  file.number("coordination", s.coordination, non_negative,
+              "Z = 2 N_bonds/N of a random packing; the bond gap may end it earlier.");
+  file.quantity("bond gap", s.g_b, "m", non_negative,
+                "Largest gap that is bonded, g_b at S = 1; scales with S, Eq. 8.", "mm");
+  file.integer("seed", s.seed, non_negative, "Of the random cloud of grains.");
+}
+
+void declare_size_effect(CaseFile& file, SizeEffect& e)
+{
+  const auto section = file.section("Size effect");
+  file.flag("size effect", e.is_on,
+            "Multiply the strengths of the bonds by psi (B_ref/B)^0.18, Eqs. 17-19.");
+  file.quantity("sample width", e.width, "m", non_negative,
+                "B; 0 takes the mean edge of the cell.", "mm");
+  file.quantity("reference width", e.reference_width, "m", positive,
+                "B_ref, at which the strengths of section Bond hold.", "mm");
+  file.number("psi", e.psi, positive, "Factor at any width but the reference's, Eq. 16.");
+}
+
+void declare_loading(CaseFile& file, ElementCase& c)
+{
+  const auto section = file.section("Loading");
+  c.leg_texts.assign(most_legs, "");
+  for (std::size_t k = 0; k < most_legs; ++k)
+    file.text(key_of_leg(k), c.leg_texts[k],
+              k > 0
+                  ? "The next leg; empty: the test ends before."
+                  : std::string("A leg of the path: ") + forms_of_leg +
+                        ". Compression is positive, z is the axis, strains count from the "
+                        "start of the leg (resume, unload, reload: of the leg resumed).",
+              k > 0 ? Default::present : Default::none);
+  file.number(
+      "inertial number", c.inertial_number, inside(0.0, 0.1),
+      "I = rate d sqrt(rho/p) of the driven strain, d the mean grain by mass, rho its "
+      "density; quasi-static below 1e-3.");
+  file.quantity("reference pressure", c.reference_pressure, "Pa", positive,
+                "Stands for p in I where |p| is below.", "MPa");
+  file.number("strain limit", c.strain_limit, inside(0.0, 0.9),
+              "A leg that comes so far without its goal ends the test.");
+  file.number(
+      "reversal", c.reversal, inside(0.0, 1.0),
+      "A leg to a stress that falls back by this share of the way it had made has met "
+      "an unstable point: it ends the test.");
+}
+
+void declare_motion(CaseFile& file, ElementCase& c)
+{
+  const auto section = file.section("Motion");
+  file.number("damping", c.damping, from_to(0.0, 1.0).named("alpha"),
+              "Local non-viscous damping of the grains' motion against the cell.");
+  file.number("time step safety", c.safety, above_to(0.0, 1.0),
+              "Share of the critical time step that is used.");
+  file.flag("free rotation", c.free_rotation,
+            "Let grains without a living bond spin; the paper holds them.");
+}
+
+void declare_analysis(CaseFile& file, ElementCase& c)
+{
+  const auto section = file.section("Analysis");
+  file.number(
+      "secant from", c.secant_from, non_negative,
+      "Strain of the leg at which the secant for moduli and Poisson's ratio starts.");
+  file.number("secant to", c.secant_to, positive, "Strain at which it ends.");
+  file.number("yield offset", c.yield_offset, positive,
+              "Strain by which the line of the modulus is moved for the yield point.");
+  file.text(
+      "critical states", c.critical_text,
+      "Folders of other element runs, with blanks between: their last states and this "
+      "run's are fitted by the critical state line.");
+}
+
+} // namespace
+
+double SizeEffect::factor(double B) const
+{
+  if (!is_on || B == reference_width) return 1.0;
+  return psi * std::pow(reference_width / B, 0.18); // B > 0: a width
+}
+
+void declare(CaseFile& file, ElementCase& c)
+{
+  declare_specimen(file, c);
+  declare(file, c.bond);
+  declare(file, c.contact);
+  declare_size_effect(file, c.size_effect);
+  declare_loading(file, c);
+  declare_motion(file, c);
+  declare_analysis(file, c);
+  const auto section = file.section("Output");
+  file.number("record every", c.record_every, inside(0.0, 0.1),
+              "Driven strain from one line of history.csv to the next.");
+}
+
+void complete(const CaseFile& file, ElementCase& c)
+{
+  dem::SpecimenSpec& s = c.specimen;
+  if (s.d_max < s.d_min)
+    file.refuse("Specimen", "largest diameter", "must not be below `smallest diameter`");
+  s.g_a = c.contact.g_a;
+  s.scale = {c.S, c.S, 0.0, 1.0};
+  if (c.sample.empty() && dem::effective_solid_fraction(s) > 0.66)
+    file.refuse(
+        "Specimen", "porosity",
+        "the spheres with their far-field shells would fill " +
+            dem::shortest(dem::effective_solid_fraction(s)) +
+            " of the cell (at most 0.66): raise it, or lower `Contact/activation gap`");
+  if (c.secant_to <= c.secant_from)
+    file.refuse("Analysis", "secant to", "must be beyond `secant from`");
+
+  bool is_over = false;
+  for (std::size_t k = 0; k < most_legs; ++k) {
+    if (c.leg_texts[k].empty()) {
+      is_over = true;
+      continue;
+    }
+    if (is_over)
+      file.refuse("Loading", key_of_leg(k), "the leg before is empty: close the gap");
+    try {
+      for (const dem::Leg& leg : read_legs(c.leg_texts[k])) c.legs.push_back(leg);
+    } catch (const std::invalid_argument& e) {
+      file.refuse("Loading", key_of_leg(k), e.what());
+    }
+    if (c.legs.front().kind == dem::PathKind::resume)
+      file.refuse("Loading", key_of_leg(k), "there is no leg before to resume");
+  }
+  std::istringstream folders(c.critical_text);
+  for (std::string folder; folders >> folder;) {
+    c.critical_states.emplace_back(folder);
+    if (!std::filesystem::exists(c.critical_states.back() / "history.csv"))
+      file.refuse("Analysis", "critical states", folder + " holds no results of a run");
+  }
+}
+
+namespace {
+
+/// The cell of a packing; none where packings do not know one.
+template <class Packing>
+dem::PeriodicCell cell_of(const Packing& packing)
+{
+  if constexpr (requires { packing.cell; })
+    return packing.cell;
+  else
+    return {};
+}
+
+} // namespace
+
+ElementRock obtain_rock(const CaseFile& file, const ElementCase& c)
+{
+  if (c.sample.empty()) {
+    try {
+      auto [particles, cell] = dem::pack_periodic(c.specimen, c.S, c.n_particles);
+      auto bonding = dem::choose_bonds(c.specimen, particles, cell);
+      return {std::move(particles), cell, std::move(bonding.pairs)};
+    } catch (const InputError& e) {
+      file.refuse("Specimen", "porosity", e.what());
+    }
+  }
+  dem::Sample sample;
+  try {
+    sample = dem::read_sample(c.sample);
+  } catch (const InputError& e) {
+    file.refuse("Specimen", "file", e.what());
+  }
+  ElementRock rock{std::move(sample.packing.particles), cell_of(sample.packing),
+                   std::move(sample.bonding.pairs)};
+  if ((rock.cell.size.array() <= 0.0).any())
+    file.refuse("Specimen", "file",
+                "is not a specimen of a periodic box: make one with `mergel sample`");
+  return rock;
+}
+
+double list_skin(const dem::Particles& p)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const dem::Body& b : p.body) least = std::min(least, 2.0 * b.R / b.S);
+  return 0.3 * least;
+}
+
+void check_size(const CaseFile& file, const ElementCase& c, const ElementRock& rock)
+{
+  const double range = c.contact.g_a + list_skin(rock.particles);
+  double reach = 0.0;
+  for (const dem::Body& b : rock.particles.body)
+    reach = std::max(reach, b.R + 0.5 * range * b.S);
+  const double edge = rock.cell.size.minCoeff();
+  if (edge * (1.0 - c.strain_limit) < 4.0 * reach) // of find_pairs()
+    file.refuse(
+        "Loading", "strain limit",
+        "the cell, an edge of which is " + dem::shortest(1e3 * edge) +
+            " mm, would become shorter than twice the reach of its largest grains, " +
+            dem::shortest(4e3 * reach) + " mm: lower it, or take more grains");
+}
+
+dem::PairMaterials resolved_materials(const ElementCase& c, double width)
+{
+  dem::PairMaterials m{c.bond.chosen(), c.contact};
+  const double factor = c.size_effect.factor(width);
+  if (auto* b = std::get_if<dem::DamageBond>(&m.bond)) {
+    b->sigma_t *= factor;
+    b->sigma_c *= factor;
+    b->C *= factor;
+  } else if (auto* b = std::get_if<dem::ParallelBond>(&m.bond)) {
+    b->sigma_c *= factor;
+    b->tau_c *= factor;
+  }
+  return m;
+}
+
+std::string report(const ElementCase& c, const ElementRock& rock,
+                   const dem::PairMaterials& materials)
+{
+  double S_min = rock.particles.body[0].S, S_max = S_min, d_min = 1e300, d_max = 0.0;
+  for (const dem::Body& b : rock.particles.body) {
+    S_min = std::min(S_min, b.S);
+    S_max = std::max(S_max, b.S);
+    d_min = std::min(d_min, 2.0 * b.R);
+    d_max = std::max(d_max, 2.0 * b.R);
+  }
+  std::ostringstream out;
+  out.precision(4);
+  const dem::Vec3 mm = 1e3 * rock.cell.size;
+  const auto n = static_cast<double>(rock.particles.size());
+  out << "rock: " << n << " grains of " << 1e3 * d_min << " to " << 1e3 * d_max
+      << " mm in a periodic cell of " << mm.x() << " x " << mm.y() << " x " << mm.z()
+      << " mm, Z = 2 N_bonds/N = " << 2.0 * static_cast<double>(rock.bonded.size()) / n
+      << '\n';
+  const auto scaled = [&](const char* name, double at_1) {
+    out << ", " << name << ' ' << 1e3 * at_1 * S_min;
+    if (S_max > S_min) out << " to " << 1e3 * at_1 * S_max;
+    out << " mm";
+  };
+  out << "resolved: S " << S_min;
+  if (S_max > S_min) out << " to " << S_max;
+  if (const auto* b = std::get_if<dem::DamageBond>(&materials.bond)) {
+    scaled("u_c", b->u_c);
+    scaled("g_a", materials.contact.g_a);
+    out << " (Eq. 8); sigma_t " << 1e-6 * b->sigma_t << ", sigma_c " << 1e-6 * b->sigma_c
+        << ", C " << 1e-6 * b->C << " MPa";
+  } else if (const auto* b = std::get_if<dem::ParallelBond>(&materials.bond)) {
+    scaled("g_a", materials.contact.g_a);
+    out << " (Eq. 8); tensile " << 1e-6 * b->sigma_c << ", shear strength "
+        << 1e-6 * b->tau_c << " MPa";
+  }
+  if (c.size_effect.is_on) {
+    const double B =
+        c.size_effect.width > 0.0 ? c.size_effect.width : rock.cell.size.mean();
+    out << ", times " << c.size_effect.factor(B) << " for a width of " << 1e3 * B
+        << " mm (Eq. 18)";
+  } else
+    out << ", no size effect";
+  return out.str();
+}
+
+} // namespace mergel::apps

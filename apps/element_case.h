@@ -1,0 +1,82 @@
+/// Case of `mergel element`: a rock, the legs it is led along, and how they are read.
+#pragma once
+
+#include "apps/case_file.h"
+#include "apps/legs.h"
+#include "apps/material_keys.h"
+#include "dem/averages.h"
+#include "dem/io/sample_file.h"
+
+namespace mergel::apps {
+
+/// Strengths as a function of the width of the sample, Eqs. 17-19.
+struct SizeEffect {
+  bool is_on = false;
+  double width = 0.0;             ///< B [m]; 0: the edge of the cell
+  double reference_width = 50e-3; ///< [m]
+  double psi = 1.1;               ///< of any width but the reference's [-]
+
+  /// Factor of all strengths: psi (B_ref/B)^0.18, 1 at the reference width.
+  double factor(double B) const;
+};
+
+struct ElementCase {
+  // Specimen
+  std::filesystem::path sample;
+  std::size_t n_particles = 2000;
+  dem::SpecimenSpec specimen; ///< of a random packing, when no file is given
+  double S = 1.0;             ///< of it
+
+  BondKeys bond;
+  dem::LinearMaterial contact;
+  SizeEffect size_effect;
+
+  // Loading
+  std::vector<std::string> leg_texts;
+  std::vector<dem::Leg> legs;
+  double inertial_number = 5e-4;
+  double reference_pressure = 1e6; ///< [Pa]
+  double strain_limit = 0.5;       ///< of a leg [-]
+  double reversal = 0.5;           ///< of the way made towards a goal [-]
+
+  // Motion
+  double damping = 0.7, safety = 0.7;
+  bool free_rotation = false;
+
+  // Analysis
+  double secant_from = 1e-4, secant_to = 1e-3; ///< strain [-]
+  double yield_offset = 2e-4;                  ///< strain [-]
+  std::vector<std::filesystem::path> critical_states;
+  std::string critical_text;
+
+  double record_every = 2e-4; ///< strain [-]
+};
+
+void declare(CaseFile& file, ElementCase& c);
+
+/// Checks that span keys; reads the legs.
+void complete(const CaseFile& file, ElementCase& c);
+
+/// Grains of a periodic cell and what is bonded.
+struct ElementRock {
+  dem::Particles particles;
+  dem::PeriodicCell cell;
+  std::vector<dem::Pair> bonded;
+};
+ElementRock obtain_rock(const CaseFile& file, const ElementCase& c);
+
+/// Margin of the lists at S = 1 [m], 0.3 of the smallest grain.
+double list_skin(const dem::Particles& p);
+
+/// Refuse a cell that the strain limit would make too small for its grains.
+void check_size(const CaseFile& file, const ElementCase& c, const ElementRock& rock);
+
+/// The materials of the run: the keys' values at S = 1, with the size effect applied to the
+/// strengths. Upscaling (Eq. 8) is the grains' own: a pair takes u_c and g_a times its S.
+dem::PairMaterials resolved_materials(const ElementCase& c, double width);
+
+/// What was resolved, in words.
+std::string report(const ElementCase& c, const ElementRock& rock,
+                   const dem::PairMaterials& materials);
+
+} // namespace mergel::apps

@@ -1,0 +1,344 @@
+#include "apps/element_output.h"
+
+#include "apps/progress.h"
+#include "dem/io/atomic_file.h"
+#include "dem/io/table.h"
+
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+namespace mergel::apps {
+
+namespace {
+
+const std::vector<std::string> columns{
+    "time [s]",
+    "leg [-]",
+    "axial strain [-]",
+    "lateral strain [-]",
+    "volumetric strain [-]",
+    "axial strain of the leg [-]",
+    "volumetric strain of the leg [-]",
+    "axial stress [Pa]",
+    "lateral stress x [Pa]",
+    "lateral stress y [Pa]",
+    "p [Pa]",
+    "q [Pa]",
+    "axial traction on the faces [Pa]",
+    "lateral traction on the faces [Pa]",
+    "skew share of the stress [-]",
+    "void ratio [-]",
+    "porosity [-]",
+    "broken bonds [-]",
+    "broken in tension [-]",
+    "broken in compression [-]",
+    "broken in shear [-]",
+    "broken in bending [-]",
+    "Z of bonds [-]",
+    "Z of contacts [-]",
+    "bond fabric xx [-]",
+    "bond fabric yy [-]",
+    "bond fabric zz [-]",
+    "contact fabric xx [-]",
+    "contact fabric yy [-]",
+    "contact fabric zz [-]",
+    "elastic energy of bonds [J]",
+    "elastic energy of contacts [J]",
+    "kinetic energy [J]",
+    "bond plasticity and damage [J]",
+    "left in broken bonds [J]",
+    "friction [J]",
+    "damping [J]",
+    "held spins [J]",
+    "boundary work [J]",
+    "energy error [-]",
+    "inertial number [-]",
+    "unbalanced ratio [-]",
+};
+
+double count(std::size_t n)
+{
+  return static_cast<double>(n);
+}
+
+} // namespace
+
+ElementHistory::ElementHistory(const std::filesystem::path& file) : history_(file, columns)
+{
+}
+
+void ElementHistory::add(const ElementRecord& r)
+{
+  const dem::CellAverages& a = r.averages;
+  const dem::EnergyBook& e = r.book;
+  const dem::Mat3 &b = a.bond_fabric, &k = a.contact_fabric;
+  history_.add({r.time,
+                count(r.leg + 1),
+                r.whole.axial_strain,
+                r.whole.lateral_strain,
+                r.whole.volumetric_strain,
+                r.of_leg.axial_strain,
+                r.of_leg.volumetric_strain,
+                -a.stress(2, 2),
+                -a.stress(0, 0),
+                -a.stress(1, 1),
+                r.whole.p(),
+                r.whole.q(),
+                -a.traction.z(),
+                -0.5 * (a.traction.x() + a.traction.y()),
+                a.skew,
+                a.void_ratio,
+                a.porosity,
+                count(r.broken),
+                count(r.broken_by[0]),
+                count(r.broken_by[1]),
+                count(r.broken_by[2]),
+                count(r.broken_by[3]),
+                a.bond_coordination,
+                a.contact_coordination,
+                b(0, 0),
+                b(1, 1),
+                b(2, 2),
+                k(0, 0),
+                k(1, 1),
+                k(2, 2),
+                e.bonds,
+                e.contacts,
+                e.kinetic,
+                e.plastic,
+                e.residue,
+                e.slip,
+                e.damping,
+                e.lock,
+                e.cell_work,
+                r.energy_error,
+                r.inertial_number,
+                r.unbalanced});
+}
+
+namespace {
+
+/// Stress and strain of a leg by what it drives, compression or pull positive.
+template <class Strain, class Stress>
+dem::Curve curve_of(const std::vector<ElementRecord>& records, Strain&& strain,
+                    Stress&& stress)
+{
+  dem::Curve c;
+  for (const ElementRecord& r : records) {
+    c.strain.push_back(strain(r.of_leg));
+    c.stress.push_back(stress(r.of_leg));
+  }
+  return c;
+}
+
+/// Names of what is read off one curve; empty: not of this leg.
+struct CurveNames {
+  const char *modulus, *yield, *peak;
+};
+
+void read_off(std::vector<Finding>& found, const ElementCase& c, const dem::Curve& curve,
+              const CurveNames& names)
+{
+  if (const auto E = dem::secant(curve, c.secant_from, c.secant_to)) {
+    found.push_back({names.modulus, "Pa", *E});
+    if (const auto y = dem::offset_yield(curve, *E, c.yield_offset, c.secant_from)) {
+      found.push_back({names.yield, "Pa", y->stress});
+      found.push_back({"strain at yield", "-", y->strain});
+    }
+  }
+  const dem::CurvePoint top = dem::peak(curve);
+  found.push_back({names.peak, "Pa", top.stress});
+  found.push_back({"strain there", "-", top.strain});
+  if (const auto first = dem::first_collapse(curve, 0.02);
+      first && first->stress < top.stress)
+    found.push_back({"first peak before a collapse", "Pa", first->stress});
+  const dem::CurvePoint low = dem::minimum_after_peak(curve);
+  if (low.stress < 0.98 * top.stress)
+    found.push_back({"minimum after the peak", "Pa", low.stress});
+}
+
+void read_poisson(std::vector<Finding>& found, const ElementCase& c,
+                  const std::vector<ElementRecord>& records)
+{
+  using S = const dem::SoilState&;
+  const auto swelling = curve_of(
+      records, [](S s) { return s.axial_strain; }, [](S s) { return -s.lateral_strain; });
+  if (const auto nu = dem::secant(swelling, c.secant_from, c.secant_to))
+    found.push_back({"Poisson's ratio", "-", *nu});
+}
+
+void read_stress_ratio(std::vector<Finding>& found,
+                       const std::vector<ElementRecord>& records)
+{
+  double eta_peak = 0.0;
+  for (const ElementRecord& r : records)
+    if (r.of_leg.p() > 0.0) eta_peak = std::max(eta_peak, r.of_leg.q() / r.of_leg.p());
+  const dem::SoilState& end = records.back().of_leg;
+  const auto degrees = [](double eta) {
+    return dem::friction_angle(eta) * 180.0 / dem::pi;
+  };
+  found.push_back({"largest q/p", "-", eta_peak});
+  if (end.p() > 0.0) {
+    const double eta = end.q() / end.p();
+    found.push_back({"q/p at the end", "-", eta});
+    found.push_back({"friction angle at the end", "degree", degrees(eta)});
+  }
+}
+
+} // namespace
+
+LegResult analyse(const ElementCase& c, const dem::Leg& leg, Outcome outcome,
+                  const std::vector<ElementRecord>& records)
+{
+  using S = const dem::SoilState&;
+  LegResult result{name_of(leg), outcome, {}};
+  auto& found = result.findings;
+  const auto axial = [](S s) { return s.axial_strain; };
+  switch (leg.kind) {
+  case dem::PathKind::isotropic:
+    read_off(
+        found, c,
+        curve_of(
+            records, [](S s) { return s.volumetric_strain; }, [](S s) { return s.p(); }),
+        {"bulk modulus", "isotropic yield", "largest p"});
+    break;
+  case dem::PathKind::oedometer:
+    read_off(found, c, curve_of(records, axial, [](S s) { return s.axial; }),
+             {"constrained modulus", "oedometric yield", "largest axial stress"});
+    break;
+  case dem::PathKind::compression:
+    read_off(found, c, curve_of(records, axial, [](S s) { return s.axial; }),
+             {"Young's modulus", "yield stress", "UCS"});
+    read_poisson(found, c, records);
+    break;
+  case dem::PathKind::tension:
+    read_off(
+        found, c,
+        curve_of(
+            records, [](S s) { return -s.axial_strain; }, [](S s) { return -s.axial; }),
+        {"Young's modulus", "yield stress in tension", "tensile strength"});
+    break;
+  case dem::PathKind::triaxial:
+    read_off(found, c, curve_of(records, axial, [](S s) { return s.q(); }),
+             {"Young's modulus", "q at yield", "largest q"});
+    read_poisson(found, c, records);
+    read_stress_ratio(found, records);
+    break;
+  case dem::PathKind::radial: // by p, or by q where p stays
+    if (std::isinf(leg.slope))
+      read_off(found, c, curve_of(records, axial, [](S s) { return s.q(); }),
+               {"dq over axial strain", "q at yield", "largest q"});
+    else
+      read_off(
+          found, c,
+          curve_of(
+              records, [](S s) { return s.volumetric_strain; }, [](S s) { return s.p(); }),
+          {"dp over volumetric strain", "p at yield", "largest p"});
+    read_stress_ratio(found, records);
+    break;
+  case dem::PathKind::resume: {
+    const dem::SoilState &a = records.front().of_leg, &b = records.back().of_leg;
+    if (a.axial_strain != b.axial_strain)
+      found.push_back({"secant modulus of the leg", "Pa",
+                       (b.axial - a.axial) / (b.axial_strain - a.axial_strain)});
+    break;
+  }
+  }
+  return result;
+}
+
+CriticalStates critical_states(const ElementCase& c, const ElementRecord& last)
+{
+  CriticalStates all;
+  all.states.push_back({last.whole.p(), last.whole.q(), last.averages.void_ratio});
+  for (const std::filesystem::path& folder : c.critical_states) {
+    const dem::Table table = dem::read_table(folder / "history.csv");
+    all.states.push_back({table.column("p", "Pa").back(), table.column("q", "Pa").back(),
+                          table.column("void ratio", "-").back()});
+  }
+  all.line = dem::critical_state_line(all.states);
+  return all;
+}
+
+void write_summary(const std::filesystem::path& file, const ElementSummary& s)
+{
+  std::ostringstream out;
+  const auto number = [&](const std::string& name, double value, const char* end = ",\n") {
+    out << "  \"" << name << "\": " << dem::shortest(value) << end;
+  };
+  out << "{\n  \"legs\": [";
+  const char* comma = "\n";
+  for (const LegResult& leg : s.legs) {
+    out << comma << "    {\n      \"leg\": \"" << leg.name << "\",\n      \"outcome\": \""
+        << sentence_of(leg.outcome) << "\"";
+    for (const Finding& f : leg.findings)
+      out << ",\n      \"" << f.name << " [" << f.unit << "]\": " << dem::shortest(f.value);
+    out << "\n    }";
+    comma = ",\n";
+  }
+  out << "\n  ],\n";
+  number("p at the end [Pa]", s.last.whole.p());
+  number("q at the end [Pa]", s.last.whole.q());
+  number("void ratio at the end [-]", s.last.averages.void_ratio);
+  if (s.critical.line) {
+    number("critical states fitted [-]", count(s.critical.states.size()));
+    number("critical state line Gamma [-]", s.critical.line->intercept);
+    number("critical state line lambda [-]", -s.critical.line->slope);
+    number("critical state line R2 [-]", s.critical.line->R2);
+  }
+  number("bonds broken [-]", count(s.last.broken));
+  const char* modes[] = {"tension", "compression", "shear", "bending"};
+  for (std::size_t k = 0; k < dem::n_break_modes; ++k)
+    number(std::string("broken in ") + modes[k] + " [-]", count(s.last.broken_by[k]));
+  number("boundary work [J]", s.last.book.cell_work);
+  number("largest energy error [-]", s.worst_energy_error);
+  number("largest strain rate [1/s]", s.greatest_rate);
+  number("largest inertial number [-]", s.greatest_inertial_number);
+  number("rates cut at their limit [-]", count(s.n_limited));
+  number("particles [-]", count(s.n_particles));
+  number("steps [-]", count(s.n_steps));
+  number("time step [s]", s.dt);
+  number("wall-clock time [s]", s.seconds, "\n");
+  out << "}\n";
+  dem::replace_file(file, out.str());
+}
+
+void print_summary(const std::filesystem::path& folder, const ElementSummary& s)
+{
+  std::ostream& out = std::cout;
+  out.precision(4);
+  out << '\n';
+  for (std::size_t k = 0; k < s.legs.size(); ++k) {
+    const LegResult& leg = s.legs[k];
+    out << "leg " << k + 1 << ", " << leg.name << ": " << sentence_of(leg.outcome);
+    for (const Finding& f : leg.findings) {
+      const bool is_stress = f.unit == "Pa";
+      out << "; " << f.name << ' ' << (is_stress ? 1e-6 * f.value : f.value)
+          << (is_stress       ? " MPa"
+              : f.unit == "-" ? ""
+                              : " " + f.unit);
+    }
+    out << '\n';
+  }
+  out << "at the end: p " << 1e-6 * s.last.whole.p() << ", q " << 1e-6 * s.last.whole.q()
+      << " MPa, e " << s.last.averages.void_ratio << ", " << s.last.broken
+      << " bonds broken (" << s.last.broken_by[0] << " in tension, " << s.last.broken_by[1]
+      << " compression, " << s.last.broken_by[2] << " shear, " << s.last.broken_by[3]
+      << " bending)\n";
+  if (s.critical.line)
+    out << "critical states of " << s.critical.states.size()
+        << " runs: e = " << s.critical.line->intercept << " - " << -s.critical.line->slope
+        << " (p/p_a)^0.7, R2 " << s.critical.line->R2 << '\n';
+  out << "energy book closes to " << s.worst_energy_error
+      << " of the work; strain rate up to " << s.greatest_rate
+      << " 1/s, inertial number up to " << s.greatest_inertial_number;
+  if (s.n_limited > 0) out << "; " << s.n_limited << " rates met the limit of the servo";
+  out << "\n"
+      << s.n_particles << " grains, " << s.n_steps << " steps, "
+      << 1e9 * s.seconds / static_cast<double>(s.n_steps * s.n_particles)
+      << " ns a grain and step, whole run " << duration_text(s.seconds)
+      << "\nresults: " << folder.string() << " (history.csv, summary.json)\n";
+}
+
+} // namespace mergel::apps

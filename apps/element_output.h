@@ -1,0 +1,59 @@
+/// Files of `mergel element`: history.csv and summary.json, and the closing words.
+#pragma once
+
+#include "apps/element_run.h"
+#include "dem/element_analysis.h"
+#include "dem/io/history.h"
+
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+namespace mergel::apps {
+
+class ElementHistory {
+public:
+  explicit ElementHistory(const std::filesystem::path& file);
+  void add(const ElementRecord& r);
+
+private:
+  dem::History history_;
+};
+
+/// A figure that was found: SI value, and how it is said.
+struct Finding {
+  std::string name, unit; ///< "Young's modulus", "Pa"
+  double value;
+};
+
+/// One leg and what was read off it.
+struct LegResult {
+  std::string name;
+  Outcome outcome = Outcome::goes_on;
+  std::vector<Finding> findings;
+};
+
+/// @param records those of the leg, the one at its start first
+LegResult analyse(const ElementCase& c, const dem::Leg& leg, Outcome outcome,
+                  const std::vector<ElementRecord>& records);
+
+/// The last states of this run and of others, and the line through them if there is one.
+struct CriticalStates {
+  std::vector<dem::CriticalState> states; ///< this run's first
+  std::optional<dem::StraightLine> line;
+};
+/// @throws InputError when a run of others cannot be read
+CriticalStates critical_states(const ElementCase& c, const ElementRecord& last);
+
+struct ElementSummary {
+  std::vector<LegResult> legs;
+  CriticalStates critical;
+  ElementRecord last;
+  double worst_energy_error = 0.0, greatest_inertial_number = 0.0, greatest_rate = 0.0;
+  std::size_t n_particles = 0, n_steps = 0, n_limited = 0;
+  double dt = 0.0, seconds = 0.0;
+};
+void write_summary(const std::filesystem::path& file, const ElementSummary& s);
+void print_summary(const std::filesystem::path& folder, const ElementSummary& s);
+
+} // namespace mergel::apps

@@ -1,0 +1,145 @@
+#include "apps/legs.h"
+
+#include "apps/units.h"
+#include "apps/words.h"
+#include "dem/error.h"
+#include "dem/io/history.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace mergel::apps {
+
+const char* const forms_of_leg =
+    "isotropic | oedometer | triaxial [at STRESS] | radial dq/dp = NUMBER | compression | "
+    "tension | resume | unload | reload | unload-reload, then `to` and where it ends: p, "
+    "q, "
+    "axial stress, lateral stress, axial strain or volumetric strain = VALUE";
+
+namespace {
+
+using dem::Leg;
+using dem::PathKind;
+using dem::Quantity;
+
+const std::vector<std::pair<std::string, PathKind>> kinds{
+    {"isotropic", PathKind::isotropic},     {"oedometer", PathKind::oedometer},
+    {"triaxial", PathKind::triaxial},       {"radial", PathKind::radial},
+    {"compression", PathKind::compression}, {"tension", PathKind::tension},
+    {"resume", PathKind::resume},           {"unload", PathKind::resume},
+    {"reload", PathKind::resume},           {"unload-reload", PathKind::resume}};
+
+const std::vector<std::pair<std::string, Quantity>> quantities{
+    {"p", Quantity::p},
+    {"q", Quantity::q},
+    {"axial stress", Quantity::axial_stress},
+    {"lateral stress", Quantity::lateral_stress},
+    {"axial strain", Quantity::axial_strain},
+    {"volumetric strain", Quantity::volumetric_strain}};
+
+template <class T>
+const T& chosen(const std::string& word, const std::vector<std::pair<std::string, T>>& from,
+                const std::string& what)
+{
+  std::vector<std::string> names;
+  for (const auto& [name, value] : from) {
+    if (name == word) return value;
+    names.push_back(name);
+  }
+  const std::string meant = nearest(word, names);
+  throw InputError(what + " " + in_quotes(word) + " is unknown" +
+                   (meant.empty() ? ": one of " + joined(names, ", ")
+                                  : ": did you mean " + in_quotes(meant) + "?"));
+}
+
+double stress(const std::string& text)
+{
+  return to_si(text, "Pa");
+}
+
+/// A number, or one followed by % or percent.
+double strain(std::string text)
+{
+  double per = 1.0;
+  for (const std::string unit : {"%", "percent"})
+    if (text.ends_with(unit)) {
+      text.erase(text.size() - unit.size());
+      per = 100.0;
+      break;
+    }
+  return to_si(std::string(trimmed(text)), "1") / per;
+}
+
+/// "name = value" taken apart.
+std::pair<std::string, std::string> assignment(const std::string& text,
+                                               const std::string& example)
+{
+  const auto at = text.find('=');
+  if (at == std::string::npos)
+    throw InputError("expected " + in_quotes(example) + " instead of " + in_quotes(text));
+  return {std::string(trimmed(text.substr(0, at))),
+          std::string(trimmed(text.substr(at + 1)))};
+}
+
+/// What stands between the kind and "to".
+void read_details(Leg& leg, const std::string& kind, const std::string& details)
+{
+  if (kind == "radial") {
+    const auto [name, value] = assignment(details, "dq/dp = 1.5");
+    if (name != "dq/dp")
+      throw InputError("a radial leg wants " + in_quotes("dq/dp = NUMBER") +
+                       " before `to`");
+    leg.slope =
+        value == "inf" ? std::numeric_limits<double>::infinity() : to_si(value, "1");
+  } else if (kind == "triaxial" && details.starts_with("at ")) {
+    leg.has_lateral = true;
+    leg.lateral = stress(std::string(trimmed(details.substr(3))));
+  } else if (!details.empty())
+    throw InputError(in_quotes(details) + " is not understood after " + in_quotes(kind) +
+                     "; a leg reads: " + forms_of_leg);
+}
+
+} // namespace
+
+std::vector<Leg> read_legs(const std::string& text)
+{
+  const std::string padded = text + " ";
+  const auto to = padded.find(" to ");
+  if (to == std::string::npos)
+    throw InputError(std::string("there is no `to`; a leg reads: ") + forms_of_leg);
+  const std::string head(trimmed(padded.substr(0, to)));
+  const auto blank = std::min(head.find(' '), head.size());
+  const std::string kind = head.substr(0, blank);
+
+  Leg leg;
+  leg.kind = chosen(kind, kinds, "the kind of leg");
+  read_details(leg, kind, std::string(trimmed(head.substr(blank))));
+  const auto [name, value] =
+      assignment(std::string(trimmed(padded.substr(to + 4))), "axial strain = 2 %");
+  leg.quantity = chosen(name, quantities, "the quantity");
+  leg.goal = dem::is_strain(leg.quantity) ? strain(value) : stress(value);
+  leg.check();
+  if (kind != "unload-reload") return {leg};
+  Leg back = leg;
+  back.returns = true;
+  return {leg, back};
+}
+
+std::string name_of(const Leg& leg)
+{
+  std::string text = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) {
+                       return k.second == leg.kind;
+                     })->first;
+  if (leg.kind == PathKind::radial) text += " dq/dp = " + dem::shortest(leg.slope);
+  if (leg.has_lateral) text += " at " + with_unit(leg.lateral, "Pa", "MPa");
+  if (leg.returns) return text + " to where it was unloaded";
+  text += " to " + std::find_if(quantities.begin(), quantities.end(), [&](const auto& q) {
+                     return q.second == leg.quantity;
+                   })->first;
+  return text + " = " +
+         (dem::is_strain(leg.quantity) ? dem::shortest(100.0 * leg.goal) + " %"
+                                       : with_unit(leg.goal, "Pa", "MPa"));
+}
+
+} // namespace mergel::apps

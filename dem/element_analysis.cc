@@ -1,0 +1,117 @@
+#include "dem/element_analysis.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mergel::dem {
+
+namespace {
+
+constexpr double atmosphere = 101325.0; ///< [Pa]
+
+/// Share of the way from a to b at which zero lies; a and b have different signs, or a is 0.
+double crossing(double a, double b)
+{
+  return a == b ? 0.0 : a / (a - b);
+}
+
+} // namespace
+
+std::optional<double> stress_at(const Curve& c, double strain)
+{
+  for (std::size_t k = 0; k < c.strain.size(); ++k) {
+    if (c.strain[k] == strain) return c.stress[k];
+    if (k == 0 || (c.strain[k - 1] - strain) * (c.strain[k] - strain) > 0.0) continue;
+    const double t = crossing(c.strain[k - 1] - strain, c.strain[k] - strain);
+    return c.stress[k - 1] + t * (c.stress[k] - c.stress[k - 1]);
+  }
+  return {};
+}
+
+std::optional<double> secant(const Curve& c, double from, double to)
+{
+  const auto a = stress_at(c, from), b = stress_at(c, to);
+  if (!a || !b || from == to) return {};
+  return (*b - *a) / (to - from);
+}
+
+std::optional<CurvePoint> offset_yield(const Curve& c, double modulus, double offset,
+                                       double from)
+{
+  const auto base = stress_at(c, from);
+  if (!base) return {};
+  const auto above = [&](std::size_t k) { // of the curve over the moved line [Pa]
+    return c.stress[k] - (*base + modulus * (c.strain[k] - from - offset));
+  };
+  for (std::size_t k = 1; k < c.strain.size(); ++k) {
+    if (c.strain[k] <= from + offset || above(k) > 0.0) continue;
+    const double before = above(k - 1);
+    if (before <= 0.0) return CurvePoint{c.strain[k], c.stress[k]};
+    const double t = crossing(before, above(k));
+    return CurvePoint{c.strain[k - 1] + t * (c.strain[k] - c.strain[k - 1]),
+                      c.stress[k - 1] + t * (c.stress[k] - c.stress[k - 1])};
+  }
+  return {};
+}
+
+CurvePoint peak(const Curve& c)
+{
+  const auto at = std::max_element(c.stress.begin(), c.stress.end());
+  return {c.strain[static_cast<std::size_t>(at - c.stress.begin())], *at};
+}
+
+CurvePoint minimum_after_peak(const Curve& c)
+{
+  const auto at =
+      std::min_element(std::max_element(c.stress.begin(), c.stress.end()), c.stress.end());
+  return {c.strain[static_cast<std::size_t>(at - c.stress.begin())], *at};
+}
+
+std::optional<CurvePoint> first_collapse(const Curve& c, double share)
+{
+  std::size_t top = 0;
+  for (std::size_t k = 1; k < c.stress.size(); ++k) {
+    if (c.stress[k] >= c.stress[top])
+      top = k;
+    else if (c.stress[k] < (1.0 - share) * c.stress[top])
+      return CurvePoint{c.strain[top], c.stress[top]};
+  }
+  return {};
+}
+
+double friction_angle(double eta)
+{
+  return std::asin(std::clamp(3.0 * eta / (6.0 + eta), -1.0, 1.0)); // eta > -6: p > 0
+}
+
+std::optional<StraightLine> fit_line(const std::vector<double>& x,
+                                     const std::vector<double>& y)
+{
+  const auto n = static_cast<double>(x.size());
+  double x_mean = 0.0, y_mean = 0.0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    x_mean += x[k] / n;
+    y_mean += y[k] / n;
+  }
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    xx += (x[k] - x_mean) * (x[k] - x_mean);
+    xy += (x[k] - x_mean) * (y[k] - y_mean);
+    yy += (y[k] - y_mean) * (y[k] - y_mean);
+  }
+  if (!(xx > 0.0)) return {};
+  const double slope = xy / xx;
+  return StraightLine{y_mean - slope * x_mean, slope, yy > 0.0 ? xy * xy / (xx * yy) : 1.0};
+}
+
+std::optional<StraightLine> critical_state_line(const std::vector<CriticalState>& states)
+{
+  std::vector<double> x, e;
+  for (const CriticalState& s : states) {
+    x.push_back(std::pow(std::max(0.0, s.p) / atmosphere, 0.7));
+    e.push_back(s.e);
+  }
+  return fit_line(x, e);
+}
+
+} // namespace mergel::dem

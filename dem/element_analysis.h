@@ -1,0 +1,66 @@
+/// What an engineer reads off the curves of an element test. Compression positive.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace mergel::dem {
+
+/// Stress [Pa] against strain [-], in the order of the test.
+struct Curve {
+  std::vector<double> strain, stress;
+};
+
+struct CurvePoint {
+  double strain, stress;
+};
+
+/// Stress where the strain first passes `strain`, linear between records; none if the curve
+/// does not get there.
+std::optional<double> stress_at(const Curve& c, double strain);
+
+/// Slope of the secant between two strains, from < to: a modulus if the stress is one
+/// [Pa], Poisson's ratio if it is a lateral extension [-].
+std::optional<double> secant(const Curve& c, double from, double to);
+
+/// Where the curve first falls below the line of slope `modulus` that is moved by `offset`
+/// to larger strains: offset yield strength, ASTM E8/E8M, as used for the yield of
+/// bonded soils in isotropic, oedometer and triaxial compression by Leroueil and Vaughan
+/// (1990), Geotechnique 40, 467. The line starts at the secant's own point: (from,
+/// stress there), so that a bedding error before it does not count.
+std::optional<CurvePoint> offset_yield(const Curve& c, double modulus, double offset,
+                                       double from);
+
+/// Greatest stress, the first of equals; the curve has one point at least.
+CurvePoint peak(const Curve& c);
+
+/// Least stress after the peak; the peak itself if that is the end.
+CurvePoint minimum_after_peak(const Curve& c);
+
+/// The first peak from which the stress falls by more than this share of it before it rises
+/// above it: the collapse of a bonded rock that later hardens on.
+std::optional<CurvePoint> first_collapse(const Curve& c, double share);
+
+/// Angle of Mohr and Coulomb without cohesion that q/p mobilises in triaxial compression
+/// [rad]: sin phi = 3 eta/(6 + eta).
+double friction_angle(double eta);
+
+struct StraightLine {
+  double intercept, slope;
+  double R2; ///< share of the variance of y that the line explains [-]
+};
+
+/// Least squares; none for less than two different x.
+std::optional<StraightLine> fit_line(const std::vector<double>& x,
+                                     const std::vector<double>& y);
+
+/// State of a rock that is sheared on without a change.
+struct CriticalState {
+  double p, q, e;
+};
+
+/// e = Gamma - lambda (p/p_a)^0.7, Li and Wang (1998), J. Geotech. Geoenviron. Eng. 124,
+/// 1215, with p_a = 101325 Pa; slope is -lambda.
+std::optional<StraightLine> critical_state_line(const std::vector<CriticalState>& states);
+
+} // namespace mergel::dem

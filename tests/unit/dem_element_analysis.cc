@@ -1,0 +1,90 @@
+#include "dem/element_analysis.h"
+#include "dem/notation.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace mergel::dem;
+
+namespace {
+
+/// Elastic with modulus E to the stress s_y, then with modulus E_t; a bedding error before.
+Curve bilinear(double E, double s_y, double E_t, double bedding)
+{
+  Curve c;
+  for (int k = 0; k <= 400; ++k) {
+    const double eps = 1e-5 * k, elastic = s_y / E;
+    c.strain.push_back(eps + bedding);
+    c.stress.push_back(eps < elastic ? E * eps : s_y + E_t * (eps - elastic));
+  }
+  return c;
+}
+
+} // namespace
+
+TEST_CASE("A secant between records is that of the straight line through both ends",
+          "[unit][dem]")
+{
+  const Curve c = bilinear(1e9, 1e6, 1e8, 0.0);
+  CHECK(*secant(c, 1.33e-4, 7.77e-4) == Approx(1e9).epsilon(1e-12));
+  // 0.5 of the strain on each branch
+  CHECK(*secant(c, 5e-4, 1.5e-3) == Approx(0.5 * (1e9 + 1e8)).epsilon(1e-12));
+  CHECK_FALSE(secant(c, 1e-4, 5e-3)); // the curve ends at 4e-3
+}
+
+TEST_CASE(
+    "The offset yield of a bilinear curve is where the moved line meets its second branch",
+    "[unit][dem]")
+{
+  // s_y + E_t (x - s_y/E) = E (x - offset)  =>  x - s_y/E = E offset/(E - E_t)
+  for (const double bedding : {0.0, 2e-4}) {
+    const double E = 1e9, E_t = 2e8, s_y = 1e6, offset = 2e-4;
+    const Curve c = bilinear(E, s_y, E_t, bedding);
+    const auto y = offset_yield(c, E, offset, 1e-4 + bedding);
+    REQUIRE(y);
+    const double beyond = E * offset / (E - E_t);
+    CHECK(y->strain == Approx(s_y / E + beyond + bedding).epsilon(1e-12));
+    CHECK(y->stress == Approx(s_y + E_t * beyond).epsilon(1e-12));
+  }
+  CHECK_FALSE(offset_yield(bilinear(1e9, 1e9, 1e9, 0.0), 1e9, 2e-4, 1e-4)); // never yields
+}
+
+TEST_CASE("Peak, collapse and minimum are found in their order", "[unit][dem]")
+{
+  const Curve c{{0, 1, 2, 3, 4, 5, 6}, {0.0, 6.4, 6.35, 5.6, 5.8, 7.0, 9.0}};
+  CHECK(peak(c).strain == 6.0);
+  CHECK(first_collapse(c, 0.02)->stress == 6.4);
+  CHECK_FALSE(first_collapse(c, 0.2)); // falls by 12.5 % only
+  const Curve softens{{0, 1, 2, 3}, {0.0, 4.2, 2.1, 2.6}};
+  CHECK(minimum_after_peak(softens).stress == 2.1);
+  CHECK(minimum_after_peak(c).stress == 9.0);
+}
+
+TEST_CASE("The friction angle of q/p is that of Mohr's circle", "[unit][dem]")
+{
+  // sigma_1/sigma_3 = (1 + sin phi)/(1 - sin phi)
+  for (const double phi : {0.3, 0.6}) {
+    const double s1 = (1.0 + std::sin(phi)) / (1.0 - std::sin(phi)), s3 = 1.0;
+    CHECK(friction_angle((s1 - s3) / ((s1 + 2.0 * s3) / 3.0)) ==
+          Approx(phi).epsilon(1e-12));
+  }
+  CHECK(friction_angle(1.37) * 180.0 / pi == Approx(34.0).margin(0.2)); // paper, Fig. 15
+}
+
+TEST_CASE("The critical state line is recovered from states on it, with R2 below 1 off it",
+          "[unit][dem]")
+{
+  std::vector<CriticalState> states;
+  for (const double p : {0.5e6, 1e6, 2e6, 4e6, 6e6})
+    states.push_back({p, 0.0, 1.2 - 0.02 * std::pow(p / 101325.0, 0.7)});
+  const auto line = critical_state_line(states);
+  REQUIRE(line);
+  CHECK(line->intercept == Approx(1.2).epsilon(1e-12));
+  CHECK(line->slope == Approx(-0.02).epsilon(1e-11));
+  CHECK(line->R2 == Approx(1.0).epsilon(1e-12));
+  states[2].e += 0.01;
+  CHECK(critical_state_line(states)->R2 < 0.999);
+  states.resize(1);
+  CHECK_FALSE(critical_state_line(states)); // one state has no line
+}
