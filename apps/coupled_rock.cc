@@ -58,7 +58,7 @@ fem::FarField make_far_field(RockCase& c)
   int corners = 0;
   for (const Eigen::Vector3d& x : far_field.interface().x)
     if (std::abs(x.z()) < 1e-9 * c.height) ++corners;
-  c.specimen.region.segments = corners - 1;
+  std::get<dem::HalfCylinder>(c.specimen.region).segments = corners - 1;
   return far_field;
 }
 
@@ -71,7 +71,7 @@ CoupledRock::CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarF
   rock.material = c.material;
   rock.motion = {dem::Vec3(0.0, 0.0, -c.gravity), c.damping, c.free_rotation};
   // A skin of 0.3 d00 S: some hundred steps between rebuilds under a pile at 1 m/s.
-  rock.list = dem::VerletList(c.material.contact.g_a, 0.3 * c.specimen.d_min);
+  rock.list = dem::VerletList(c.material.contact.g_a, 0.3 * c.specimen.sizes.smallest());
   rock.bonds = dem::make_bonds(rock.particles, rock.cell, sample.bonding.pairs);
   rock.mirrors.emplace_back();
   if (c.symmetry == dem::Symmetry::mirror)

@@ -12,7 +12,7 @@ namespace mergel::dem {
 
 namespace {
 
-constexpr int version = 1;
+constexpr int version = 2;
 const char* const format = "mergel sample";
 
 /// An HDF5 handle with its own way to close.
@@ -114,8 +114,11 @@ void check_seal(const std::filesystem::path& file)
 struct Columns {
   std::vector<double> x, R, m, S;
   std::vector<std::uint32_t> bonds;
+  std::vector<std::int16_t> shifts;
+  std::vector<double> cell;
   std::string keys, values; ///< one line each
-  double bond_limit = 0.0, porosity = 0.0, whole_porosity = 0.0, overlap = 0.0;
+  double bond_limit = 0.0, porosity = 0.0, whole_porosity = 0.0, overlap = 0.0,
+         pressure = 0.0, friction = 0.0;
 };
 
 void write_array(hid_t file, const char* name, hid_t type, const void* data, hsize_t rows,
@@ -186,7 +189,11 @@ Columns to_columns(const Sample& s)
     c.m.push_back(b.m);
     c.S.push_back(b.S);
   }
-  for (const Pair& q : s.bonding.pairs) c.bonds.insert(c.bonds.end(), {q.i, q.j});
+  for (const Pair& q : s.bonding.pairs) {
+    c.bonds.insert(c.bonds.end(), {q.i, q.j});
+    c.shifts.insert(c.shifts.end(), q.shift.begin(), q.shift.end());
+  }
+  c.cell = {s.packing.cell.size.x(), s.packing.cell.size.y(), s.packing.cell.size.z()};
   for (const auto& [key, value] : s.recipe) {
     c.keys += key + '\n';
     c.values += value + '\n';
@@ -195,6 +202,8 @@ Columns to_columns(const Sample& s)
   c.porosity = s.packing.porosity;
   c.whole_porosity = s.packing.whole_porosity;
   c.overlap = s.packing.overlap;
+  c.pressure = s.packing.pressure;
+  c.friction = s.packing.friction;
   return c;
 }
 
@@ -210,6 +219,9 @@ void write_columns(const std::filesystem::path& path, const Columns& c)
   write_array(file, "S", H5T_NATIVE_DOUBLE, c.S.data(), rows(c.R.size()), 1);
   write_array(file, "bonds", H5T_NATIVE_UINT32, c.bonds.data(), rows(c.bonds.size() / 2),
               2);
+  write_array(file, "bond_shifts", H5T_NATIVE_INT16, c.shifts.data(),
+              rows(c.shifts.size() / 3), 3);
+  write_array(file, "cell", H5T_NATIVE_DOUBLE, c.cell.data(), 3, 1);
   write_array(file, "recipe_keys", H5T_NATIVE_CHAR, c.keys.data(), rows(c.keys.size()), 1);
   write_array(file, "recipe_values", H5T_NATIVE_CHAR, c.values.data(),
               rows(c.values.size()), 1);
@@ -222,6 +234,8 @@ void write_columns(const std::filesystem::path& path, const Columns& c)
   write_attribute(file, "porosity", H5T_NATIVE_DOUBLE, &c.porosity);
   write_attribute(file, "whole_porosity", H5T_NATIVE_DOUBLE, &c.whole_porosity);
   write_attribute(file, "overlap", H5T_NATIVE_DOUBLE, &c.overlap);
+  write_attribute(file, "pressure", H5T_NATIVE_DOUBLE, &c.pressure);
+  write_attribute(file, "friction", H5T_NATIVE_DOUBLE, &c.friction);
   file.finish("write " + path.string());
   seal(path);
 }
@@ -250,6 +264,8 @@ Columns read_columns(const std::filesystem::path& path)
     c.m = read_array<double>(file, "m", H5T_NATIVE_DOUBLE, 1);
     c.S = read_array<double>(file, "S", H5T_NATIVE_DOUBLE, 1);
     c.bonds = read_array<std::uint32_t>(file, "bonds", H5T_NATIVE_UINT32, 2);
+    c.shifts = read_array<std::int16_t>(file, "bond_shifts", H5T_NATIVE_INT16, 3);
+    c.cell = read_array<double>(file, "cell", H5T_NATIVE_DOUBLE, 1);
     const auto text = [&](const char* name) {
       const auto chars = read_array<char>(file, name, H5T_NATIVE_CHAR, 1);
       return std::string(chars.begin(), chars.end());
@@ -260,12 +276,15 @@ Columns read_columns(const std::filesystem::path& path)
     read_attribute(file, "porosity", H5T_NATIVE_DOUBLE, &c.porosity);
     read_attribute(file, "whole_porosity", H5T_NATIVE_DOUBLE, &c.whole_porosity);
     read_attribute(file, "overlap", H5T_NATIVE_DOUBLE, &c.overlap);
+    read_attribute(file, "pressure", H5T_NATIVE_DOUBLE, &c.pressure);
+    read_attribute(file, "friction", H5T_NATIVE_DOUBLE, &c.friction);
   } catch (const NumericalError& e) {
     throw InputError(std::string("is damaged (") + e.what() +
                      "); make it again with `mergel sample`");
   }
   const std::size_t n = c.R.size();
-  bool fits = c.x.size() == 3 * n && c.m.size() == n && c.S.size() == n;
+  bool fits = c.x.size() == 3 * n && c.m.size() == n && c.S.size() == n &&
+              c.cell.size() == 3 && 2 * c.shifts.size() == 3 * c.bonds.size();
   for (const std::uint32_t id_of_end : c.bonds) fits = fits && id_of_end < n;
   if (!fits) throw InputError("is damaged (its arrays do not fit each other)");
   return c;
@@ -291,12 +310,18 @@ Sample read_sample(const std::filesystem::path& file)
     b.S = c.S[i];
     s.packing.particles.add(b);
   }
-  for (std::size_t k = 0; k < c.bonds.size(); k += 2)
-    s.bonding.pairs.push_back({c.bonds[k], c.bonds[k + 1], {}});
+  for (std::size_t k = 0; k < c.bonds.size() / 2; ++k)
+    s.bonding.pairs.push_back(
+        {c.bonds[2 * k],
+         c.bonds[2 * k + 1],
+         {c.shifts[3 * k], c.shifts[3 * k + 1], c.shifts[3 * k + 2]}});
+  s.packing.cell.size = {c.cell[0], c.cell[1], c.cell[2]};
   s.bonding.limit = c.bond_limit;
   s.packing.porosity = c.porosity;
   s.packing.whole_porosity = c.whole_porosity;
   s.packing.overlap = c.overlap;
+  s.packing.pressure = c.pressure;
+  s.packing.friction = c.friction;
   const auto keys = lines(c.keys), values = lines(c.values);
   for (std::size_t k = 0; k < std::min(keys.size(), values.size()); ++k)
     s.recipe.emplace_back(keys[k], values[k]);

@@ -44,6 +44,15 @@ broken=$(awk -F': ' '/"bonds broken/ { print $2 + 0 }' pile1/summary.json)
 [ "$broken" -gt 20 ] || fail "the pile broke only $broken bonds"
 echo "pile: $broken broken, the same history and grains on 1, 2, 3, 4, 8 ranks"
 
+# A specimen under pressure, whose settling the ranks share.
+for n in 1 2 3; do
+  ranks $n "$mergel" sample "$root/apps/cases/sample_rock.prm" --set "Specimen/upscaling ratio=12" \
+    --set "Specimen/target pressure=20 kPa" --output "sample$n" >log 2>&1 ||
+    fail "the specimen on $n ranks: $(tail -3 log)"
+  cmp sample1/sample.h5 "sample$n/sample.h5" || fail "the specimen on $n ranks differs from one"
+done
+echo "specimen: $(grep -o '^specimen: [0-9]* grains' log), the same file on 1, 2, 3 ranks"
+
 # A rank that fails takes the others down, and says which it is.
 code=0
 ranks 3 "$mergel" pile "$root/apps/cases/pile_small.prm" "${tiny[@]}" --output fails \
