@@ -175,6 +175,7 @@ Packing pack(const SpecimenSpec& s, const std::function<void(double)>& progress,
   double solid = 1.0 - s.porosity; // of the whole region
   Packing packing;
   packing.cell = cell_of(s.region);
+  const auto settling = [&](double part) { progress(0.2 + 0.8 * part); };
   for (int draw = 0; draw < most_draws; ++draw) {
     packing.particles = draw_grains(s, solid * volume(s.region));
     const auto report = [&](double part) { progress((draw + part) / most_draws); };
@@ -187,10 +188,10 @@ Packing pack(const SpecimenSpec& s, const std::function<void(double)>& progress,
         finish_unjammed(s, packing, tolerance_overlap, report);
         break;
       case Compaction::confined:
-        confine(s, packing, comm, report);
+        confine(s, packing, comm, settling);
         break;
       case Compaction::expanded:
-        expand(s, packing, comm, report);
+        expand(s, packing, comm, settling);
         break;
       }
       wrap_into(packing.cell, packing.particles);

@@ -267,7 +267,10 @@ void confine(const SpecimenSpec& s, Packing& packing, MPI_Comm comm,
   int n_tries = 0;
   // How much looser than wanted the grains lock.
   const auto error_with = [&](double friction) {
-    const auto part = [&](double done) { progress((n_tries + done) / most_tries); };
+    // How many tries it takes is not known: the next takes half of what is left.
+    const auto part = [&](double done) {
+      progress(1.0 - std::pow(0.5, n_tries) * (1.0 - 0.5 * done));
+    };
     const Packing locked = lock(s, cloud, friction, comm, part);
     ++n_tries;
     const double error = locked.porosity - s.porosity;

@@ -127,8 +127,10 @@ void write_array(hid_t file, const char* name, hid_t type, const void* data, hsi
   const hsize_t size[2] = {rows, columns};
   const Handle space(H5Screate_simple(columns == 1 ? 1 : 2, size, nullptr), H5Sclose,
                      "describe an array");
-  Handle set(H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-             H5Dclose, std::string("create ") + name);
+  const Handle plain(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe an array");
+  H5Pset_obj_track_times(plain, false); // the same sample is the same file
+  Handle set(H5Dcreate2(file, name, type, space, H5P_DEFAULT, plain, H5P_DEFAULT), H5Dclose,
+             std::string("create ") + name);
   if (rows > 0 && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
     throw NumericalError(std::string("HDF5 cannot write ") + name);
   set.finish(std::string("write ") + name);

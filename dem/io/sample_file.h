@@ -24,7 +24,8 @@ struct Sample {
 /// (3, m, edges of the periodic cell; 0: not periodic), `recipe_keys`, `recipe_values`;
 /// attributes `format`, `version`, `bond_limit`, `porosity`, `whole_porosity`, `overlap`,
 /// `pressure` (Pa), `friction` (while packed). After the HDF5 data, which readers of HDF5 do not
-/// see, stands the FNV-1a sum of all bytes. The file is replaced whole.
+/// see, stands the FNV-1a sum of all bytes. The same sample is
+/// the same file, byte for byte. It is replaced whole.
 /// @throws NumericalError when it cannot be written
 void write_sample(const std::filesystem::path& file, const Sample& sample);
 
