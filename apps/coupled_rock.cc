@@ -59,7 +59,7 @@ fem::FarField make_far_field(RockCase& c)
   int corners = 0;
   for (const Eigen::Vector3d& x : far_field.interface().x)
     if (std::abs(x.z()) < 1e-9 * c.height) ++corners;
-  c.specimen.region.segments = corners - 1;
+  std::get<dem::HalfCylinder>(c.specimen.region).segments = corners - 1;
   return far_field;
 }
 
@@ -71,7 +71,7 @@ CoupledRock::CoupledRock(const RockCase& c, fem::FarField field,
   rock.material = c.material;
   rock.motion = {dem::Vec3(0.0, 0.0, -c.gravity), c.damping, c.free_rotation};
   // A skin of 0.45 d00 S: some hundred steps between rebuilds under a pile at 1 m/s.
-  rock.list = dem::VerletList(c.material.contact.g_a, 0.45 * c.specimen.d_min);
+  rock.list = dem::VerletList(c.material.contact.g_a, 0.45 * c.specimen.sizes.smallest());
   rock.mirrors.emplace_back();
   rock.walls.push_back(std::move(interface.wall));
   rock.wall_bonds_yield = c.interface_bond == dem::InterfaceBond::breakable;

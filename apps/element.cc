@@ -4,6 +4,7 @@
 #include "apps/output_folder.h"
 #include "apps/progress.h"
 #include "apps/ranks.h"
+#include "apps/restart.h"
 
 #include <iostream>
 #include <optional>
@@ -60,12 +61,13 @@ int run_element(const JobOptions& options)
   CaseFile file;
   ElementCase c;
   declare(file, c);
-  file.read(options.case_file, options.set);
+  read_case(file, options, std::nullopt);
   complete(file, c);
-  const OutputFolder folder(options.output,
-                            options.overwrite ? Earlier::overwrite : Earlier::keep);
-  std::vector<std::filesystem::path> inputs{options.case_file};
-  if (!c.sample.empty()) inputs.push_back(c.sample);
+  const OutputFolder folder = folder_to_begin_in(options);
+  std::vector<std::filesystem::path> inputs;
+  if (options.restart.empty()) inputs.push_back(options.case_file);
+  for (const auto& input : {c.specimen.sample, c.specimen.table})
+    if (!input.empty()) inputs.push_back(input);
   on_first_rank([&] { folder.check(inputs); });
 
   ElementRock rock = obtain_rock(file, c);

@@ -3,7 +3,6 @@
 #include "apps/units.h"
 #include "apps/words.h"
 #include "dem/io/history.h"
-#include "dem/periodic_packing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,36 +18,6 @@ constexpr std::size_t most_legs = 12;
 std::string key_of_leg(std::size_t k)
 {
   return "leg " + std::to_string(k + 1);
-}
-
-void declare_specimen(CaseFile& file, ElementCase& c)
-{
-  const auto section = file.section("Specimen");
-  dem::SpecimenSpec& s = c.specimen;
-  s.d_min = s.d_max = s.rho = s.porosity = s.coordination = s.g_b = unset;
-  c.S = unset;
-  file.path(
-      "file", c.sample,
-      "A periodic specimen made before by mergel sample, which then has the grains, their "
-      "upscaling ratio and the bonds; empty: a random packing of the keys below.");
-  file.integer("particles", c.n_particles, between(200, 1e6),
-               "Grains of a random packing.");
-  file.quantity("smallest diameter", s.d_min, "m", positive,
-                "Smallest grain at S = 1, d00; diameters are uniform in number.", "mm");
-  file.quantity("largest diameter", s.d_max, "m", positive, "Largest grain at S = 1.",
-                "mm");
-  file.number("upscaling ratio", c.S, positive,
-              "S of all grains of a random packing: diameters, u_c, g_a and g_b scale with "
-              "it, Eq. 8.");
-  file.quantity("grain density", s.rho, "kg/m3", positive,
-                "Density of the grains, not of the rock.");
-  file.number("porosity", s.porosity, inside(0.0, 1.0),
-              "Of a random packing, by true sphere volumes.");
-  file.number("coordination", s.coordination, non_negative,
-              "Z = 2 N_bonds/N of a random packing; the bond gap may end it earlier.");
-  file.quantity("bond gap", s.g_b, "m", non_negative,
-                "Largest gap that is bonded, g_b at S = 1; scales with S, Eq. 8.", "mm");
-  file.integer("seed", s.seed, non_negative, "Of the random cloud of grains.");
 }
 
 void declare_size_effect(CaseFile& file, SizeEffect& e)
@@ -125,7 +94,9 @@ double SizeEffect::factor(double B) const
 
 void declare(CaseFile& file, ElementCase& c)
 {
-  declare_specimen(file, c);
+  c.specimen.shape = SpecimenKeys::Shape::periodic_box;
+  c.specimen.upscaling = SpecimenKeys::Upscaling::uniform;
+  declare(file, c.specimen);
   declare(file, c.bond);
   declare(file, c.contact);
   declare_size_effect(file, c.size_effect);
@@ -139,17 +110,10 @@ void declare(CaseFile& file, ElementCase& c)
 
 void complete(const CaseFile& file, ElementCase& c)
 {
-  dem::SpecimenSpec& s = c.specimen;
-  if (s.d_max < s.d_min)
-    file.refuse("Specimen", "largest diameter", "must not be below `smallest diameter`");
-  s.g_a = c.contact.g_a;
-  s.scale = {c.S, c.S, 0.0, 1.0};
-  if (c.sample.empty() && dem::effective_solid_fraction(s) > 0.66)
-    file.refuse(
-        "Specimen", "porosity",
-        "the spheres with their far-field shells would fill " +
-            dem::shortest(dem::effective_solid_fraction(s)) +
-            " of the cell (at most 0.66): raise it, or lower `Contact/activation gap`");
+  if (c.specimen.shape != SpecimenKeys::Shape::periodic_box)
+    file.refuse("Specimen", "shape", "an element test leads a `periodic box`");
+  c.specimen.specimen.free_rotation = c.free_rotation;
+  complete(file, c.specimen, c.contact);
   if (c.secant_to <= c.secant_from)
     file.refuse("Analysis", "secant to", "must be beyond `secant from`");
 
@@ -177,43 +141,11 @@ void complete(const CaseFile& file, ElementCase& c)
   }
 }
 
-namespace {
-
-/// The cell of a packing; none where packings do not know one.
-template <class Packing>
-dem::PeriodicCell cell_of(const Packing& packing)
-{
-  if constexpr (requires { packing.cell; })
-    return packing.cell;
-  else
-    return {};
-}
-
-} // namespace
-
 ElementRock obtain_rock(const CaseFile& file, const ElementCase& c)
 {
-  if (c.sample.empty()) {
-    try {
-      auto [particles, cell] = dem::pack_periodic(c.specimen, c.S, c.n_particles);
-      auto bonding = dem::choose_bonds(c.specimen, particles, cell);
-      return {std::move(particles), cell, std::move(bonding.pairs)};
-    } catch (const InputError& e) {
-      file.refuse("Specimen", "porosity", e.what());
-    }
-  }
-  dem::Sample sample;
-  try {
-    sample = dem::read_sample(c.sample);
-  } catch (const InputError& e) {
-    file.refuse("Specimen", "file", e.what());
-  }
-  ElementRock rock{std::move(sample.packing.particles), cell_of(sample.packing),
-                   std::move(sample.bonding.pairs)};
-  if ((rock.cell.size.array() <= 0.0).any())
-    file.refuse("Specimen", "file",
-                "is not a specimen of a periodic box: make one with `mergel sample`");
-  return rock;
+  dem::Sample sample = obtain_sample(file, c.specimen);
+  return {std::move(sample.packing.particles), sample.packing.cell,
+          std::move(sample.bonding.pairs)};
 }
 
 double list_skin(const dem::Particles& p)

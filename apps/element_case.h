@@ -4,8 +4,8 @@
 #include "apps/case_file.h"
 #include "apps/legs.h"
 #include "apps/material_keys.h"
+#include "apps/specimen_keys.h"
 #include "dem/averages.h"
-#include "dem/io/sample_file.h"
 
 namespace mergel::apps {
 
@@ -21,12 +21,7 @@ struct SizeEffect {
 };
 
 struct ElementCase {
-  // Specimen
-  std::filesystem::path sample;
-  std::size_t n_particles = 2000;
-  dem::SpecimenSpec specimen; ///< of a random packing, when no file is given
-  double S = 1.0;             ///< of it
-
+  SpecimenKeys specimen; ///< of a periodic box
   BondKeys bond;
   dem::LinearMaterial contact;
   SizeEffect size_effect;
@@ -63,6 +58,7 @@ struct ElementRock {
   dem::PeriodicCell cell;
   std::vector<dem::Pair> bonded;
 };
+/// Collective. @throws InputError naming file, line and key
 ElementRock obtain_rock(const CaseFile& file, const ElementCase& c);
 
 /// Margin of the lists at S = 1 [m], 0.3 of the smallest grain.

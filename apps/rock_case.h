@@ -2,9 +2,7 @@
 /// field, motion.
 #pragma once
 
-#include "apps/material_keys.h"
-#include "dem/io/sample_file.h"
-#include "dem/step.h"
+#include "apps/specimen_keys.h"
 #include "fem/far_field.h"
 
 #include <optional>
@@ -17,13 +15,8 @@ enum class FarFieldModel {
   rigid    ///< the same walls, held
 };
 
-struct RockCase {
-  // Specimen
-  double diameter = unset, height = unset; ///< of the DEM region [m]
-  dem::SpecimenSpec specimen;
-  dem::Symmetry symmetry = dem::Symmetry::mirror;
-  std::filesystem::path sample; ///< empty: make the specimen
-
+/// The DEM region is a half cylinder inside the far field.
+struct RockCase : SpecimenKeys {
   BondKeys bond;
   dem::PairMaterials material; ///< its bond is set by complete()
 
@@ -48,16 +41,5 @@ void declare(CaseFile& file, RockCase& c);
 /// Fill what follows from the keys, and check what spans several of them.
 /// @throws InputError naming file, line and key
 void complete(const CaseFile& file, RockCase& c);
-
-/// Key and value of everything that fixes a specimen, in a fixed order.
-std::vector<std::pair<std::string, std::string>> recipe(const RockCase& c);
-
-/// Read the sample that the case names and compare its recipe, or make one. Nothing is
-/// written.
-/// @throws InputError naming file, line and key
-dem::Sample obtain_sample(const CaseFile& file, const RockCase& c);
-
-/// One paragraph on what was reached.
-std::string report(const RockCase& c, const dem::Sample& sample);
 
 } // namespace mergel::apps

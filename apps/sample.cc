@@ -1,51 +1,141 @@
 /// mergel sample: make a specimen and write it to a file that later runs read.
+#include "apps/case_scan.h"
 #include "apps/coupled_rock.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
 #include "apps/pile_case.h"
 #include "apps/ranks.h"
 #include "apps/restart.h"
+#include "dem/io/atomic_file.h"
 #include "dem/io/rock_fields.h"
 
 #include <iostream>
 
 namespace mergel::apps {
 
-void help_sample(std::ostream& out)
+namespace {
+
+/// A case that is a specimen and nothing else.
+struct SampleCase {
+  SpecimenKeys specimen;
+  dem::LinearMaterial contact;
+};
+
+void declare(CaseFile& file, SampleCase& c)
 {
-  help_pile(out);
+  c.specimen.shape = SpecimenKeys::Shape::periodic_box;
+  c.specimen.upscaling = SpecimenKeys::Upscaling::uniform;
+  declare(file, c.specimen);
+  declare(file, c.contact);
+  const auto section = file.section("Motion");
+  file.flag("free rotation", c.specimen.specimen.free_rotation,
+            "Let grains without a living bond spin; the paper holds them.");
 }
 
-int run_sample(const JobOptions& options)
+/// Whether the case is one of `mergel pile`, whose specimen is made inside its walls.
+bool is_pile_case(const JobOptions& options)
 {
-  // The same case as the run that will use the specimen: it is made inside that run's
-  // walls.
-  CaseFile file;
-  PileCase c;
-  declare(file, c);
-  read_case(file, options, std::nullopt);
-  complete(file, c);
-  if (!c.rock.sample.empty())
+  const std::filesystem::path file =
+      options.case_file.empty() ? folder_to_restart(options.restart) / "resolved.prm"
+                                : options.case_file;
+  const CaseScan scan = scan_case(read_case_text(file), file.string());
+  std::string shape = scan.sections.contains("Pile") ? "half cylinder" : "";
+  const auto look = [&](const CaseEntry& e) {
+    if (e.section == "Specimen" && e.key == "shape") shape = e.value;
+  };
+  for (const CaseEntry& e : scan.entries) look(e);
+  for (const std::string& set : options.set) look(scan_override(set));
+  return shape == "half cylinder";
+}
+
+/// Grains and bonds as a rock at rest, for the writers of fields.
+dem::Rock as_rock(const SpecimenKeys& k, const dem::Sample& sample)
+{
+  dem::Rock rock;
+  rock.particles = sample.packing.particles;
+  rock.cell = sample.packing.cell;
+  rock.material.contact = k.specimen.contact;
+  rock.bonds = dem::make_bonds(rock.particles, rock.cell, sample.bonding.pairs);
+  return rock;
+}
+
+void write_pictures(const std::filesystem::path& folder, const dem::Rock& rock)
+{
+  std::filesystem::create_directories(folder / "fields");
+  std::vector<dem::Vec3> x;
+  for (const dem::Body& b : rock.particles.body) x.push_back(b.x);
+  dem::write_particles(folder / "fields/particles_0000.vtp", rock, x);
+  dem::Series(folder / "particles.pvd").add(0.0, "fields/particles_0000.vtp");
+  dem::write_bonds(folder / "fields/bonds_0000.vtp", rock);
+  dem::Series(folder / "bonds.pvd").add(0.0, "fields/bonds_0000.vtp");
+}
+
+void refuse_sample(const CaseFile& file, const SpecimenKeys& k)
+{
+  if (!k.sample.empty())
     file.refuse("Specimen", "file",
                 "mergel sample makes the specimen: leave the key empty");
-  const OutputFolder folder = folder_to_begin_in(options);
-  const auto inputs = options.restart.empty()
-                          ? std::vector<std::filesystem::path>{options.case_file}
-                          : std::vector<std::filesystem::path>{};
-  on_first_rank([&] { folder.check(inputs); });
+}
 
-  make_far_field(c.rock); // sets the faces around the side
-  const dem::Sample sample = obtain_sample(file, c.rock);
-  std::cout << report(c.rock, sample) << '\n';
-
+/// Make it, say what it is and write it.
+void make(const CaseFile& file, const SpecimenKeys& k, const OutputFolder& folder,
+          const std::vector<std::filesystem::path>& inputs)
+{
+  const dem::Sample sample = obtain_sample(file, k);
+  std::cout << report(k, sample) << '\n';
   const auto path = folder.path() / "sample.h5";
   on_first_rank([&] {
     folder.commit(inputs);
     file.write_resolved(folder.path() / "resolved.prm");
     dem::write_sample(path, sample);
+    write_pictures(folder.path(), as_rock(k, sample));
+    dem::replace_file(folder.path() / "summary.json", summary(k, sample));
   });
   std::cout << "specimen: " << path.string()
             << "\nuse it with --set \"Specimen/file=" << path.string() << "\"\n";
+}
+
+} // namespace
+
+void help_sample(std::ostream& out)
+{
+  out << "A case with a section Pile, or with `shape = half cylinder`, is one of mergel "
+         "pile: "
+         "its\nspecimen is made inside the walls that its run will have; mergel pile "
+         "--help "
+         "lists its keys.\nKeys of all other cases:\n\n";
+  CaseFile file;
+  SampleCase c;
+  declare(file, c);
+  file.help(out);
+}
+
+int run_sample(const JobOptions& options)
+{
+  const OutputFolder folder = folder_to_begin_in(options);
+  std::vector<std::filesystem::path> inputs;
+  if (options.restart.empty()) inputs.push_back(options.case_file);
+  CaseFile file;
+  if (is_pile_case(options)) {
+    PileCase c;
+    declare(file, c);
+    read_case(file, options, std::nullopt);
+    complete(file, c);
+    refuse_sample(file, c.rock);
+    if (!c.rock.table.empty()) inputs.push_back(c.rock.table);
+    on_first_rank([&] { folder.check(inputs); });
+    make_far_field(c.rock); // sets the faces around the side
+    make(file, c.rock, folder, inputs);
+    return 0;
+  }
+  SampleCase c;
+  declare(file, c);
+  read_case(file, options, std::nullopt);
+  refuse_sample(file, c.specimen);
+  complete(file, c.specimen, c.contact);
+  if (!c.specimen.table.empty()) inputs.push_back(c.specimen.table);
+  on_first_rank([&] { folder.check(inputs); });
+  make(file, c.specimen, folder, inputs);
   return 0;
 }
 

@@ -1,6 +1,8 @@
 #include "apps/workloads.h"
 
 #include "dem/error.h"
+#include "dem/growth.h"
+#include "dem/morton.h"
 #include "dem/random.h"
 
 #include <algorithm>
@@ -35,15 +37,6 @@ Vec3 random_vector(std::uint64_t seed, std::uint64_t id, std::uint64_t draw)
           uniform(seed, id, draw + 2)};
 }
 
-/// Which of 2^21 slices of [0, 1) x is in, its bits two places apart.
-std::uint64_t spread(double x)
-{
-  auto slice = static_cast<std::uint64_t>(x * 0x1p21);
-  std::uint64_t code = 0;
-  for (int b = 0; b < 21; ++b) code |= ((slice >> b) & 1u) << (3 * b);
-  return code;
-}
-
 /// Spheres in a periodic cube.
 struct Cube {
   Particles p;
@@ -58,7 +51,8 @@ Cube draw_cube(const WorkloadSpec& spec, double shell_gap, double fraction)
   order.reserve(spec.n_particles);
   for (std::uint64_t k = 0; k < spec.n_particles; ++k) {
     const Vec3 u = random_vector(spec.seed, k, place);
-    order.emplace_back(spread(u.x()) | spread(u.y()) << 1 | spread(u.z()) << 2, k);
+    const auto slice = [](double a) { return static_cast<std::uint32_t>(a * 0x1p21); };
+    order.emplace_back(morton(slice(u.x()), slice(u.y()), slice(u.z())), k);
   }
   std::sort(order.begin(), order.end());
 
@@ -78,89 +72,15 @@ Cube draw_cube(const WorkloadSpec& spec, double shell_gap, double fraction)
   return cube;
 }
 
-/// Pushes overlapping spheres apart, overdamped, with a memory of the last sweep.
-class Growth {
-public:
-  Growth(Cube& cube, double shell_gap)
-      : cube_(cube), g_a_(shell_gap), push_(cube.p.size()),
-        move_(cube.p.size(), Vec3::Zero())
-  {
-  }
+/// Margin of the lists while the spheres grow [m].
+constexpr double margin = 0.15 * unit;
 
-  /// One sweep at this share of the sizes. Returns the largest overlap that it met, over
-  /// the pair's distance.
-  double sweep(double share)
-  {
-    if (is_stale()) rebuild();
-    double worst = 0.0;
-    std::fill(push_.begin(), push_.end(), Vec3::Zero());
-    n_overlaps_ = 0;
-    for (const Pair& q : pairs_) {
-      const Body &i = cube_.p.body[q.i], &j = cube_.p.body[q.j];
-      const double reach = share * (i.R + j.R + g_a_);
-      const Vec3 r = j.x + cube_.cell.offset(q.shift) - i.x;
-      const double d2 = r.squaredNorm();
-      if (d2 >= reach * reach) continue;
-      ++n_overlaps_;
-      const double d = std::sqrt(d2), overlap = reach - d;
-      worst = std::max(worst, overlap / reach);
-      const Vec3 n = d > 0.0 ? Vec3(r / d) : Vec3::UnitX();
-      push_[q.i] -= 0.5 * overlap * n;
-      push_[q.j] += 0.5 * overlap * n;
-    }
-    for (std::size_t i = 0; i < move_.size(); ++i) {
-      move_[i] = memory * move_[i] + relaxation * push_[i];
-      const double limit = 0.1 * unit, length = move_[i].norm();
-      if (length > limit) move_[i] *= limit / length;
-      cube_.p.body[i].x += move_[i];
-    }
-    return worst;
-  }
-
-  std::size_t n_overlaps() const { return n_overlaps_; } ///< met by the last sweep
-
-private:
-  static constexpr double relaxation = 0.3; // 1/3 is the limit at 12 neighbours
-  static constexpr double memory = 0.8;
-  static constexpr double margin = 0.15 * unit;
-
-  bool is_stale() const
-  {
-    if (listed_.empty()) return true;
-    for (std::size_t i = 0; i < listed_.size(); ++i)
-      if ((cube_.p.body[i].x - listed_[i]).squaredNorm() > 0.25 * margin * margin)
-        return true;
-    return false;
-  }
-
-  void rebuild()
-  {
-    pairs_ = find_pairs(cube_.p, cube_.cell, g_a_ + margin);
-    listed_.clear();
-    for (const Body& b : cube_.p.body) listed_.push_back(b.x);
-  }
-
-  Cube& cube_;
-  double g_a_;
-  std::vector<Pair> pairs_;
-  std::vector<Vec3> listed_, push_, move_;
-  std::size_t n_overlaps_ = 0;
-};
-
-/// Grow to full size.
-void grow(Growth& growth)
+Region region_of(const Cube& cube)
 {
-  constexpr int n_sweeps = 150;
-  for (int k = 0; k < n_sweeps; ++k) growth.sweep(0.6 + 0.4 * k / n_sweeps);
+  return PeriodicBox{cube.cell.size};
 }
 
-/// Sweep until no overlap exceeds 1e-3 of the distance.
-void unjam(Growth& growth)
-{
-  constexpr int most_sweeps = 1000;
-  for (int k = 0; k < most_sweeps; ++k)
-    if (growth.sweep(1.0) < 1e-3) return;
-}
+void unnoticed(double) {}
 
 /// Closest pairs, ascending.
 std::vector<Pair> closest_pairs(const Particles& p, std::size_t wanted)
@@ -268,9 +188,10 @@ void squeeze_until_yielding(WorkingRock& working, double share)
 WorkingRock make_block(const WorkloadSpec& spec)
 {
   Cube cube = draw_cube(spec, g_a, 0.6);
-  Growth growth(cube, g_a);
-  grow(growth);
-  unjam(growth);
+  const Region region = region_of(cube);
+  Growth growth(cube.p, region, g_a, margin);
+  constexpr int most_sweeps = 1150;
+  grow(growth, {0.6, 1e-3, most_sweeps}, unnoticed);
   const double edge = cube.cell.size.x();
   for (Body& b : cube.p.body) // back into the cube before it is cut open
     for (int a = 0; a < 3; ++a) b.x[a] -= edge * std::floor(b.x[a] / edge);
@@ -312,8 +233,10 @@ void press(Cube& cube, Growth& growth, double contacts)
 WorkingRock make_packing(const WorkloadSpec& spec)
 {
   Cube cube = draw_cube(spec, 0.0, 0.64);
-  Growth growth(cube, 0.0);
-  grow(growth);
+  const Region region = region_of(cube);
+  Growth growth(cube.p, region, 0.0, margin);
+  constexpr int sweeps_of_growth = 150; // to full size and no further
+  grow(growth, {0.6, 0.0, sweeps_of_growth}, unnoticed);
   press(cube, growth, contacts_per_particle);
 
   WorkingRock working;

@@ -1,6 +1,10 @@
 #include "dem/packing.h"
 
+#include "dem/growth.h"
+#include "dem/morton.h"
+#include "dem/porosity.h"
 #include "dem/random.h"
+#include "dem/settle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,56 +20,14 @@ namespace {
 /// close packing is 0.64, gradings and soft shells reach a little more.
 constexpr double densest_fraction = 0.68;
 
+/// Grains that press on each other may; beyond this they would overlap by a tenth of their
+/// diameter, where the contact law says nothing of rock.
+constexpr double densest_pressed_fraction = 0.9;
+
 /// Of the distance: more than this is a packing under pressure, some 10 kPa for grains of 1 GPa.
 constexpr double jammed_overlap = 1e-3;
 
-double chord_angle(const HalfCylinder& c)
-{
-  return pi / c.segments;
-}
-
-/// Angle of the outward normal of the chord that x lies behind.
-double chord_direction(const HalfCylinder& c, const Vec3& x)
-{
-  const double phi = std::clamp(std::atan2(x.y(), x.x()), 0.0, pi);
-  const int k = std::clamp(static_cast<int>(phi / chord_angle(c)), 0, c.segments - 1);
-  return (k + 0.5) * chord_angle(c);
-}
-
-/// Mean cube of the diameters at S = 1, uniform in number [m^3].
-double mean_cube(const SpecimenSpec& s)
-{
-  return 0.25 * (s.d_max * s.d_max + s.d_min * s.d_min) * (s.d_max + s.d_min);
-}
-
-/// Interleave the bits of three 10-bit numbers.
-std::uint32_t morton(std::uint32_t x, std::uint32_t y, std::uint32_t z)
-{
-  std::uint32_t code = 0;
-  for (std::uint32_t b = 0; b < 10; ++b)
-    code |= ((x >> b) & 1u) << (3 * b) | ((y >> b) & 1u) << (3 * b + 1) |
-            ((z >> b) & 1u) << (3 * b + 2);
-  return code;
-}
-
 } // namespace
-
-double HalfCylinder::volume() const
-{
-  return height * segments * 0.5 * radius * radius * std::sin(chord_angle(*this));
-}
-
-double HalfCylinder::side_clearance(const Vec3& x) const
-{
-  const double apothem = radius * std::cos(0.5 * chord_angle(*this));
-  return apothem + x.dot(side_normal(x));
-}
-
-Vec3 HalfCylinder::side_normal(const Vec3& x) const
-{
-  const double phi = chord_direction(*this, x);
-  return {-std::cos(phi), -std::sin(phi), 0.0};
-}
 
 double GradedScale::at(double r) const
 {
@@ -76,47 +38,69 @@ double GradedScale::at(double r) const
 
 void SpecimenSpec::check() const
 {
-  require(region.radius > 0.0 && region.height > 0.0 && region.segments > 1,
-          "the region must have a size and at least two chords");
+  dem::check(region);
   require(scale.S_inner > 0.0 && scale.S_outer > 0.0, "upscaling ratios must be positive");
-  require(d_min > 0.0 && d_max >= d_min, "grain diameters must be positive and ascend");
   require(porosity > 0.0 && porosity < 1.0, "porosity must lie in (0, 1)");
   require(most_grains(*this) <= grains_limit, "the region may hold more than 2e7 grains: "
                                               "raise the upscaling ratio or the diameters");
+  require(compaction != Compaction::confined || pressure > 0.0,
+          "the pressure of a confined specimen must be positive");
+  require(friction >= 0.0, "friction must not be negative");
+  if (compaction != Compaction::unjammed) contact.check();
+
   const double fraction = effective_solid_fraction(*this);
-  if (fraction > densest_fraction) {
-    const double lowest = 1.0 - (1.0 - porosity) * densest_fraction / fraction;
+  const double most =
+      compaction == Compaction::expanded ? densest_pressed_fraction : densest_fraction;
+  if (fraction > most) {
+    const double lowest = 1.0 - (1.0 - porosity) * most / fraction;
     std::ostringstream text;
     text.precision(3);
     text << "must be at least " << lowest
          << " with this grading and activation gap: spheres with their "
-         << "far-field shell would fill " << fraction
-         << " of the volume, at random they fill at most " << densest_fraction
+         << "far-field shell would fill " << fraction << " of the volume, "
+         << (compaction == Compaction::expanded ? "pressed together" : "at random")
+         << " they fill at most " << most
          << ". Raise the porosity or lower the activation gap";
     throw InputError(text.str());
   }
-  const double largest = d_max * std::max(scale.S_inner, scale.S_outer);
-  require(largest < 0.5 * std::min(region.radius, region.height),
-          "the largest grain does not fit the region");
+  const double largest = sizes.largest() * std::max(scale.S_inner, scale.S_outer);
+  require(largest < 0.5 * least_width(region), "the largest grain does not fit the region");
 }
 
 double most_grains(const SpecimenSpec& s)
 {
   const double S = std::min(s.scale.S_inner, s.scale.S_outer);
-  return (1.0 - s.porosity) * s.region.volume() / (pi / 6.0 * mean_cube(s) * S * S * S);
+  return (1.0 - s.porosity) * volume(s.region) /
+         (pi / 6.0 * s.sizes.mean_cube() * S * S * S);
 }
 
 double effective_solid_fraction(const SpecimenSpec& s)
 {
-  // Mean of (d + g_a)^3 over a uniform d, relative to the mean of d^3; S cancels.
-  const auto quartic = [](double d) { return d * d * d * d; };
-  const double a = s.d_min + s.g_a, b = s.d_max + s.g_a;
-  const double shelled =
-      b > a ? (quartic(b) - quartic(a)) / (4.0 * (b - a)) : a * a * a; // both are positive
-  return (1.0 - s.porosity) * shelled / mean_cube(s);
+  return (1.0 - s.porosity) * s.sizes.mean_cube(s.contact.g_a) / s.sizes.mean_cube();
 }
 
 namespace {
+
+/// Numbered along Morton's curve.
+Particles in_order(const Region& region, const std::vector<Body>& born)
+{
+  const Bounds box = bounds(region);
+  const Vec3 extent = box.high - box.low;
+  // Of the cube that is cut into 2^30 places; larger than the region, as in earlier samples.
+  const double edge = std::max({extent.x(), extent.y(), 2.0 * extent.z()}) / 1023.0; // > 0
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  for (std::size_t k = 0; k < born.size(); ++k) {
+    const Vec3 x = (born[k].x - box.low) / edge;
+    order.emplace_back(morton(static_cast<std::uint32_t>(x.x()),
+                              static_cast<std::uint32_t>(x.y()),
+                              static_cast<std::uint32_t>(x.z())),
+                       k);
+  }
+  std::sort(order.begin(), order.end());
+  Particles p;
+  for (const auto& [code, k] : order) p.add(born[k]);
+  return p;
+}
 
 /// Diameters, ratios and ids of grains of this total volume [m^3], at random places, with
 /// overlaps.
@@ -128,185 +112,90 @@ Particles draw_grains(const SpecimenSpec& s, double target)
   for (std::uint64_t trial = 0;; ++trial) {
     const auto u = [&](std::uint64_t draw) { return uniform(s.seed, trial, draw); };
     Body b;
-    b.x = {s.region.radius * (2.0 * u(0) - 1.0), s.region.radius * u(1),
-           -s.region.height * u(2)};
-    if (s.region.side_clearance(b.x) < 0.0) continue;
-    b.S = s.scale.at(std::hypot(b.x.x(), b.x.y()));
+    b.x = place(s.region, {u(0), u(1), u(2)});
+    if (depth(s.region, b.x) < 0.0) continue;
+    b.S = s.scale.at(axis_distance(s.region, b.x));
     const double keep = S_least / b.S;
     if (u(3) > keep * keep * keep) continue;
-    b.R = 0.5 * b.S * (s.d_min + (s.d_max - s.d_min) * u(4));
+    b.R = 0.5 * b.S * s.sizes.diameter(u(4));
     b.m = sphere_mass(b.R, s.rho);
     const double v = sphere_mass(b.R, 1.0);
     if (volume + 0.5 * v > target) break; // the nearest whole number of grains
     volume += v;
     born.push_back(b);
   }
-
-  std::vector<std::size_t> order(born.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const double edge = 2.0 * std::max(s.region.radius, s.region.height) / 1023.0;
-  std::vector<std::uint32_t> code(born.size());
-  for (std::size_t k = 0; k < born.size(); ++k) {
-    const Vec3 x = (born[k].x + Vec3(s.region.radius, 0.0, s.region.height)) / edge;
-    code[k] = morton(static_cast<std::uint32_t>(x.x()), static_cast<std::uint32_t>(x.y()),
-                     static_cast<std::uint32_t>(x.z()));
-  }
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair{code[a], a} < std::pair{code[b], b};
-  });
-  Particles p;
-  for (const std::size_t k : order) p.add(born[k]);
-  return p;
+  return in_order(s.region, born);
 }
 
-/// Grow the radii from this fraction to 1 and push overlaps apart until none exceeds the
-/// tolerance, relative to the pair's distance, or the sweeps are spent. Returns the largest
-/// that is left.
-double grow(const SpecimenSpec& s, Particles& p, double from, double tolerance,
-            int most_sweeps, const std::function<void(double)>& progress)
+double grow_cloud(const SpecimenSpec& s, Particles& p, const Sweeps& sweeps,
+                  const std::function<void(double)>& progress)
 {
-  const int n_growing = from < 1.0 ? 150 : 0; // sweeps over which the radii grow
-  constexpr double relaxation =
-      0.3; // of each overlap removed per sweep; 1/3 is the limit at 12 neighbours
-  constexpr double memory = 0.8; // heavy ball
-  const double skin = 0.3 * s.d_min;
-  const PeriodicCell open;
-
-  std::vector<Pair> pairs;
-  std::vector<Vec3> x_listed, push(p.size()), move(p.size(), Vec3::Zero());
-  double worst = 0.0;
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    bool stale = x_listed.empty();
-    for (std::size_t i = 0; !stale && i < p.size(); ++i)
-      stale = (p.body[i].x - x_listed[i]).norm() > 0.5 * skin * p.body[i].S;
-    if (stale) {
-      pairs = find_pairs(p, open, s.g_a + skin);
-      x_listed.resize(p.size());
-      for (std::size_t i = 0; i < p.size(); ++i) x_listed[i] = p.body[i].x;
-    }
-
-    const double size = sweep < n_growing ? from + (1.0 - from) * sweep / n_growing : 1.0;
-    worst = 0.0;
-    std::fill(push.begin(), push.end(), Vec3::Zero());
-    for (const Pair& q : pairs) {
-      const Body &i = p.body[q.i], &j = p.body[q.j];
-      const double reach = size * (i.R + j.R + 0.5 * s.g_a * (i.S + j.S));
-      const Vec3 r = j.x - i.x;
-      const double d2 = r.squaredNorm();
-      if (d2 >= reach * reach) continue;
-      const double d = std::sqrt(d2), overlap = reach - d;
-      worst = std::max(worst, overlap / reach);
-      const Vec3 n = d > 0.0 ? Vec3(r / d) : Vec3::UnitX();
-      push[q.i] -= 0.5 * overlap * n;
-      push[q.j] += 0.5 * overlap * n;
-    }
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      const Body& b = p.body[i];
-      const double R = size * b.R, shell = R + 0.5 * size * s.g_a * b.S;
-      const auto keep = [&](double clearance, double needed, const Vec3& inwards) {
-        if (clearance >= needed) return;
-        push[i] += (needed - clearance) * inwards;
-        worst = std::max(worst, (needed - clearance) / needed);
-      };
-      keep(s.region.side_clearance(b.x), R, s.region.side_normal(b.x));
-      keep(b.x.y(), shell, Vec3::UnitY()); // half of the shell lies on each side of the cut
-      keep(-b.x.z(), R, -Vec3::UnitZ());
-      keep(b.x.z() + s.region.height, R, Vec3::UnitZ());
-
-      move[i] = memory * move[i] + relaxation * push[i];
-      const double limit = 0.2 * b.R, length = move[i].norm();
-      if (length > limit) move[i] *= limit / length;
-      p.body[i].x += move[i];
-    }
-    if (sweep % 20 == 0) progress(static_cast<double>(sweep) / most_sweeps);
-    if (sweep >= n_growing && worst < tolerance) break;
-  }
-  return worst;
+  Growth growth(p, s.region, s.contact.g_a, 0.3 * s.sizes.smallest());
+  return grow(growth, sweeps, progress);
 }
 
-double solid_volume(const Particles& p)
+/// Each grain's image inside the box.
+void wrap_into(const PeriodicCell& cell, Particles& p)
 {
-  double v = 0.0;
-  for (const Body& b : p.body) v += sphere_mass(b.R, 1.0);
-  return v;
+  for (Body& b : p.body)
+    for (int a = 0; a < 3; ++a)
+      if (cell.size[a] > 0.0) b.x[a] -= cell.size[a] * std::floor(b.x[a] / cell.size[a]);
+}
+
+/// Unjam what was grown, or throw.
+void finish_unjammed(const SpecimenSpec& s, Packing& packing, double tolerance,
+                     const std::function<void(double)>& progress)
+{
+  constexpr int sweeps_to_finish = 8000;
+  packing.overlap =
+      grow_cloud(s, packing.particles, {1.0, tolerance, sweeps_to_finish}, progress);
+  std::ostringstream text;
+  text.precision(3);
+  text << "cannot be reached unjammed: grains and walls still overlap by "
+       << packing.overlap << " of their distance (at most " << jammed_overlap
+       << "); raise the porosity or lower `Contact/activation gap`";
+  require(packing.overlap <= jammed_overlap, text.str());
 }
 
 } // namespace
 
-double core_porosity(const SpecimenSpec& s, const Particles& p)
+void measure_porosity(const SpecimenSpec& s, Packing& packing)
 {
-  double d_least = std::numeric_limits<double>::infinity(), margin = 0.0;
-  for (const Body& b : p.body) {
-    d_least = std::min(d_least, 2.0 * b.R);
-    margin = std::max(margin, 2.0 * b.R);
-  }
-  // A hundred million points are enough for any region: 1e-4 of its volume at three digits.
-  const double box = 2.0 * s.region.radius * s.region.radius * s.region.height;
-  const double h = std::max(0.1 * d_least, std::cbrt(box / 1e8));
-  const Vec3 low(-s.region.radius, 0.0, -s.region.height);
-  const auto count = [h](double length) { return static_cast<long>(length / h) + 1; };
-  const long nx = count(2.0 * s.region.radius), ny = count(s.region.radius),
-             nz = count(s.region.height);
-  const auto place = [&](long a, long b, long c) {
-    return static_cast<std::size_t>((c * ny + b) * nx + a);
-  };
-  std::vector<bool> solid(static_cast<std::size_t>(nx * ny * nz), false);
-  for (const Body& b : p.body) {
-    const Vec3 c = (b.x - low) / h;
-    const double R = b.R / h;
-    const auto from = [R](double x) {
-      return std::max(0L, static_cast<long>(std::ceil(x - R)));
-    };
-    const auto to = [R](double x, long n) {
-      return std::min(n - 1, static_cast<long>(x + R));
-    };
-    for (long k = from(c.z()); k <= to(c.z(), nz); ++k)
-      for (long j = from(c.y()); j <= to(c.y(), ny); ++j)
-        for (long i = from(c.x()); i <= to(c.x(), nx); ++i) {
-          const Vec3 at(static_cast<double>(i), static_cast<double>(j),
-                        static_cast<double>(k));
-          if ((at - c).squaredNorm() < R * R) solid[place(i, j, k)] = true;
-        }
-  }
-  std::size_t points = 0, filled = 0;
-  for (long j = 0; j < ny; ++j)
-    for (long i = 0; i < nx; ++i) {
-      const Vec3 x = low + h * Vec3(static_cast<double>(i), static_cast<double>(j), 0.0);
-      if (x.y() < margin || s.region.side_clearance(x) < margin) continue;
-      for (long k = 0; k < nz; ++k) {
-        const double height = h * static_cast<double>(k);
-        if (height < margin || s.region.height - height < margin) continue;
-        ++points;
-        filled += solid[place(i, j, k)];
-      }
-    }
-  require(points > 0, "the region has no core: it is not three largest grains wide");
-  return 1.0 - static_cast<double>(filled) / static_cast<double>(points);
+  Region made = s.region;
+  if (auto* box = std::get_if<PeriodicBox>(&made)) box->size = packing.cell.size;
+  packing.porosity = core_porosity(made, packing.particles);
+  packing.whole_porosity = 1.0 - solid_volume(packing.particles) / volume(made);
 }
 
-Packing pack(const SpecimenSpec& s, const std::function<void(double)>& progress)
+Packing pack(const SpecimenSpec& s, const std::function<void(double)>& progress,
+             MPI_Comm comm)
 {
-  constexpr int most_draws = 5, sweeps_to_judge = 800, sweeps_to_finish = 8000;
+  constexpr int most_draws = 5, sweeps_to_judge = 800;
   constexpr double tolerance_n = 0.004, tolerance_overlap = 1e-4;
   double solid = 1.0 - s.porosity; // of the whole region
   Packing packing;
+  packing.cell = cell_of(s.region);
+  const auto settling = [&](double part) { progress(0.2 + 0.8 * part); };
   for (int draw = 0; draw < most_draws; ++draw) {
-    packing.particles = draw_grains(s, solid * s.region.volume());
+    packing.particles = draw_grains(s, solid * volume(s.region));
     const auto report = [&](double part) { progress((draw + part) / most_draws); };
     packing.overlap =
-        grow(s, packing.particles, 0.6, tolerance_overlap, sweeps_to_judge, report);
-    packing.porosity = core_porosity(s, packing.particles);
-    packing.whole_porosity = 1.0 - solid_volume(packing.particles) / s.region.volume();
+        grow_cloud(s, packing.particles, {0.6, tolerance_overlap, sweeps_to_judge}, report);
+    measure_porosity(s, packing);
     if (std::abs(packing.porosity - s.porosity) < tolerance_n) {
-      packing.overlap =
-          grow(s, packing.particles, 1.0, tolerance_overlap, sweeps_to_finish, report);
-      packing.porosity = core_porosity(s, packing.particles);
-      std::ostringstream text;
-      text.precision(3);
-      text << "cannot be reached unjammed: grains and walls still overlap by "
-           << packing.overlap << " of their distance (at most " << jammed_overlap
-           << "); raise the porosity or lower `Contact/activation gap`";
-      require(packing.overlap <= jammed_overlap, text.str());
+      switch (s.compaction) {
+      case Compaction::unjammed:
+        finish_unjammed(s, packing, tolerance_overlap, report);
+        break;
+      case Compaction::confined:
+        confine(s, packing, comm, settling);
+        break;
+      case Compaction::expanded:
+        expand(s, packing, comm, settling);
+        break;
+      }
+      wrap_into(packing.cell, packing.particles);
+      measure_porosity(s, packing);
       return packing;
     }
     solid += packing.porosity - s.porosity;
@@ -317,42 +206,43 @@ Packing pack(const SpecimenSpec& s, const std::function<void(double)>& progress)
                    "; enlarge the region or lower the upscaling ratio");
 }
 
-Bonding choose_bonds(const SpecimenSpec& s, const Particles& p, const PeriodicCell& cell)
+SizeReport describe_sizes(const Grading& wanted, const Particles& p)
 {
-  struct Candidate {
-    double gap; ///< over S
-    Pair pair;
-  };
-  std::vector<Candidate> candidates;
-  for (const Pair& q : find_pairs(p, cell, s.g_b)) {
-    const Body &i = p.body[q.i], &j = p.body[q.j];
-    const double gap = (j.x + cell.offset(q.shift) - i.x).norm() - (i.R + j.R);
-    candidates.push_back({gap / (0.5 * (i.S + j.S)), q});
+  std::vector<double> d; // at S = 1, with their mass to a common factor
+  double mass = 0.0;
+  for (const Body& b : p.body) {
+    d.push_back(2.0 * b.R / b.S);
+    mass += d.back() * d.back() * d.back();
   }
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) {
-              return a.gap != b.gap ? a.gap < b.gap : a.pair < b.pair;
-            });
-  const auto wanted = static_cast<std::size_t>(
-      std::llround(0.5 * s.coordination * static_cast<double>(p.size())));
-  candidates.resize(std::min(wanted, candidates.size()));
-
-  Bonding bonding;
-  for (const Candidate& c : candidates) bonding.pairs.push_back(c.pair);
-  if (!candidates.empty()) bonding.limit = candidates.back().gap;
-  std::sort(bonding.pairs.begin(), bonding.pairs.end());
-  return bonding;
+  std::sort(d.begin(), d.end());
+  SizeReport r;
+  double below = 0.0;
+  for (std::size_t k = 0; k < d.size(); ++k) {
+    const double n = static_cast<double>(d.size());
+    const double after = below + d[k] * d[k] * d[k] / mass;
+    // The steps of the made curve lie above and below the wanted one.
+    const auto gap = [](double wanted_share, double low, double high) {
+      return std::max(std::abs(wanted_share - low), std::abs(wanted_share - high));
+    };
+    r.distance_by_number = std::max(
+        r.distance_by_number, gap(wanted.number_below(d[k]), static_cast<double>(k) / n,
+                                  static_cast<double>(k + 1) / n));
+    r.distance_by_mass =
+        std::max(r.distance_by_mass, gap(wanted.passing(d[k]), below, after));
+    const auto reach = [&](double share, double& target) {
+      if (below < share && after >= share) target = d[k];
+    };
+    reach(0.1, r.d_10);
+    reach(0.5, r.d_50);
+    reach(0.9, r.d_90);
+    below = after;
+  }
+  return r;
 }
 
-SpecimenReport describe(const SpecimenSpec& s, const Particles& p, const Bonding& bonding)
+GrainRange describe_grains(const Particles& p)
 {
-  SpecimenReport r;
-  r.n_particles = p.n_owned();
-  r.n_bonds = bonding.pairs.size();
-  r.coordination =
-      2.0 * static_cast<double>(r.n_bonds) / static_cast<double>(r.n_particles);
-  r.largest_gap = bonding.limit;
-  r.effective_fraction = effective_solid_fraction(s);
+  GrainRange r;
   r.S_min = r.d_min = std::numeric_limits<double>::infinity();
   for (const Body& b : p.body) {
     r.S_min = std::min(r.S_min, b.S);

@@ -1,30 +1,19 @@
-/// Specimens: grain sizes, a cloud of grains grown into a region, and which of them are
-/// bonded.
+/// Specimens: a cloud of grains grown into a region until it has its porosity, and the
+/// pressure that is wanted with it.
 #pragma once
 
-#include "dem/bonds.h"
-#include "dem/neighbours.h"
+#include "dem/laws/linear.h"
+#include "dem/particles.h"
+#include "dem/psd.h"
+#include "dem/region.h"
 
 #include <functional>
+#include <mpi.h>
 
 namespace mergel::dem {
 
-/// Upright half cylinder, y >= 0, top at z = 0. Its side is the prism of `segments` equal
-/// chords of the circle, as the wall triangles of a far-field mesh make it.
-struct HalfCylinder {
-  double radius = 0.0; ///< of the circle through the corners [m]
-  double height = 0.0; ///< [m]
-  int segments = 0;    ///< over the half circle
-
-  double volume() const; ///< of the prism [m^3]
-  /// Distance of x to the side, inside positive [m]; where two chords meet the nearer
-  /// counts.
-  double side_clearance(const Vec3& x) const;
-  Vec3 side_normal(const Vec3& x) const; ///< of the chord nearest to x, inwards, unit
-};
-
-/// Upscaling ratio that grows with the distance from the pile's axis: S_inner for r <=
-/// r_inner, linear to S_outer at r_outer, constant beyond.
+/// Upscaling ratio that grows with the distance from the axis: S_inner for r <= r_inner,
+/// linear to S_outer at r_outer, constant beyond. Equal ratios: the same everywhere.
 struct GradedScale {
   double S_inner = 1.0, S_outer = 1.0; ///< [-], > 0
   double r_inner = 0.0, r_outer = 0.0; ///< [m]
@@ -32,17 +21,28 @@ struct GradedScale {
   double at(double r) const;
 };
 
+/// How grains bear each other at the target porosity.
+enum class Compaction {
+  unjammed, ///< no far-field shell is closed: no pressure
+  confined, ///< a pressure is met together with the porosity
+  expanded  ///< the porosity is met, whatever the pressure: radii expansion, Potyondy and
+            ///< Cundall (2004), Int. J. Rock Mech. Min. Sci. 41, 1329
+};
+
 /// What a specimen is made of and how.
 struct SpecimenSpec {
-  HalfCylinder region;
+  Region region;
+  Grading sizes; ///< at S = 1
   GradedScale scale;
-  double d_min = 0.0;        ///< smallest diameter at S = 1, d00 [m]
-  double d_max = 0.0;        ///< largest diameter at S = 1; uniform in number between [m]
-  double rho = 0.0;          ///< density of the grains [kg/m^3]
-  double porosity = 0.0;     ///< target of the core [-], by true sphere volumes; see pack()
-  double g_a = 0.0;          ///< activation gap at S = 1 [m]
-  double coordination = 0.0; ///< target Z = 2 N_bonds/N [-]
-  double g_b = 0.0;          ///< largest bonded gap at S = 1 [m]
+  double rho = 0.0;       ///< density of the grains [kg/m^3]
+  double porosity = 0.0;  ///< target of the core [-], by true sphere volumes; see pack()
+  LinearMaterial contact; ///< far-field contact; its activation gap takes room in all modes
+  Compaction compaction = Compaction::unjammed;
+  double pressure = 0.0;      ///< confined: wanted [Pa], > 0
+  double friction = 0.0;      ///< expanded: between grains while they grow [-], >= 0
+  bool free_rotation = false; ///< of unbonded grains while they settle
+  double coordination = 0.0;  ///< target Z = 2 N_bonds/N [-]
+  double g_b = 0.0;           ///< largest bonded gap at S = 1 [m]
   std::uint64_t seed = 1;
 
   /// @throws InputError when out of range, or for a porosity that these spheres cannot
@@ -60,52 +60,49 @@ inline constexpr double grains_limit = 2e7;
 /// target porosity. Growth finds room for it up to random close packing.
 double effective_solid_fraction(const SpecimenSpec& spec);
 
-/// Porosity further from every wall than one largest diameter [-]: the share of a grid's
-/// points, a tenth of the smallest diameter apart at most, that lie in no sphere. A wall
-/// orders the grains beside it and leaves voids there, so the porosity of the whole region
-/// says little of the rock.
-double core_porosity(const SpecimenSpec& spec, const Particles& p);
-
-/// Grains in the region, with no far-field contact closed by more than `overlap` of the
-/// pair's distance.
+/// Grains in the region.
 struct Packing {
   Particles particles;
+  PeriodicCell cell;           ///< of a periodic box, as made
   double porosity = 0.0;       ///< of the core [-]
   double whole_porosity = 0.0; ///< of the whole region [-]
   double overlap = 0.0;        ///< largest, far-field shell included, over distance [-]
+  double pressure = 0.0;       ///< mean of the far-field contacts and walls [Pa]
+  double friction = 0.0;       ///< between grains while the packing was made [-]
 };
 
+/// Fill in both porosities, of the box as made.
+void measure_porosity(const SpecimenSpec& spec, Packing& packing);
+
 /// Draw grains and grow them, with as much solid as gives the core its porosity within
-/// 0.004.
+/// 0.004. The same spec gives the same bits, on any number of ranks.
 ///
 /// Births per volume go as S^-3; S is frozen at birth; ids ascend along a space-filling
 /// curve. Growth is overdamped, from 0.6 to 1 of the radii with their far-field shell,
-/// without friction, so the packing is unjammed: at n = 0.52 and g_a = 0.15 d00 the shells
-/// fill 0.626, just under random close packing. `progress` gets a fraction of the work.
-/// @throws InputError when the core cannot be given its porosity, or only with overlaps
-///   beyond 1e-3 of the distance
-Packing pack(const SpecimenSpec& spec, const std::function<void(double)>& progress);
+/// without friction: at n = 0.52 and g_a = 0.15 d00 the shells fill 0.626, just under random
+/// close packing, and the packing is unjammed. Confined and expanded packings then settle
+/// with friction (settle.h).
+/// @param progress gets a fraction of the work
+/// @param comm ranks that share the settling; MPI_COMM_NULL for this one alone, which needs
+///   no MPI
+/// @throws InputError when the core cannot be given its porosity, unjammed only with overlaps
+///   beyond 1e-3 of the distance, or confined not with this pressure
+Packing pack(const SpecimenSpec& spec, const std::function<void(double)>& progress,
+             MPI_Comm comm = MPI_COMM_NULL);
 
-/// The bonds of a specimen and the gap they reached.
-struct Bonding {
-  std::vector<Pair> pairs; ///< ascending
-  double limit = 0.0;      ///< largest bonded gap/S [m]
+/// Sizes of the grains as made, over their S, beside the grading that was asked for.
+struct SizeReport {
+  double d_10 = 0.0, d_50 = 0.0, d_90 = 0.0; ///< by mass [m]
+  double distance_by_number = 0.0; ///< Kolmogorov's, largest difference of the shares [-]
+  double distance_by_mass = 0.0;   ///< the same of the shares by mass [-]
 };
+SizeReport describe_sizes(const Grading& wanted, const Particles& p);
 
-/// Pairs in ascending gap/S, ties by id, until 2 N_bonds/N = coordination or the gap
-/// exceeds g_b S.
-Bonding choose_bonds(const SpecimenSpec& spec, const Particles& p,
-                     const PeriodicCell& cell);
-
-/// What was reached.
-struct SpecimenReport {
-  std::size_t n_particles = 0, n_bonds = 0;
-  double coordination = 0.0; ///< 2 N_bonds/N
-  double largest_gap = 0.0;  ///< bonded, over S [m]
-  double effective_fraction = 0.0;
-  double S_min = 0.0, S_max = 0.0, d_min = 0.0, d_max = 0.0;
+/// Extremes of what was made.
+struct GrainRange {
+  double S_min = 0.0, S_max = 0.0;
+  double d_min = 0.0, d_max = 0.0; ///< [m]
 };
-SpecimenReport describe(const SpecimenSpec& spec, const Particles& p,
-                        const Bonding& bonding);
+GrainRange describe_grains(const Particles& p);
 
 } // namespace mergel::dem

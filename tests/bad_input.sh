@@ -179,6 +179,51 @@ refuse "sample that --overwrite would remove" \
   'output folder tiny: --overwrite would remove .*sample\.h5, which this run reads\. .*' \
   pile good.prm "${tiny[@]}" --set "Specimen/file=tiny/sample.h5" --output tiny --overwrite
 
+## specimens
+sed -E "s#\.\./\.\./#$root/#" "$root/apps/cases/sample_rock.prm" >rock.prm
+sample_set()
+{
+  local name=$1 pattern=$2 options=() setting
+  shift 2
+  for setting in "$@"; do options+=(--set "$setting"); done
+  refuse "$name" "$pattern" sample rock.prm "${options[@]}" --output out
+}
+head='diameter [mm],passing [%]'
+sizes() { printf '%s\n' "$head" "$@" >sizes.csv; }
+curve='--set Specimen/size table = sizes\.csv: .*sizes\.csv'
+sample_set "sizes that are not there" "$curve: cannot be read\. .*" "Specimen/size table=sizes.csv"
+sizes 0.1,0 0.2,40 0.15,100
+sample_set "sizes that do not ascend" "$curve:4: diameter = 0\.15 mm: must be above .*" \
+  "Specimen/size table=sizes.csv"
+sizes 0.1,0 0.2,40 0.25,30 0.3,100
+sample_set "passing that falls" "$curve:4: passing = 30 %: must not be below .*" \
+  "Specimen/size table=sizes.csv"
+sizes 0.1,0 0.2,40
+sample_set "a curve without its end" "$curve:3: passing = 40 %: must be 100 .*" \
+  "Specimen/size table=sizes.csv"
+sample_set "unknown shape" '--set Specimen/shape = sphere: must be one of .*' "Specimen/shape=sphere"
+sample_set "a key of another shape" '--set Specimen/diameter = 5 mm: is a key of `shape` = .*' \
+  "Specimen/diameter=5 mm"
+sed -E '/upscaling ratio/d; s/(set upscaling *= *)uniform/\1graded/' rock.prm >graded.prm
+refuse "graded without an axis" \
+  'graded\.prm:[0-9]+: Specimen/upscaling = graded: a periodic box has no axis: .*' \
+  sample graded.prm --output out --set "Specimen/inner upscaling=2" \
+  --set "Specimen/outer upscaling=3" --set "Specimen/inner radius=1 mm" --set "Specimen/outer radius=2 mm"
+sample_set "a box smaller than its grains" '--set Specimen/upscaling ratio = 80: the largest grain, .*' \
+  "Specimen/upscaling ratio=80"
+sample_set "a pressure of nothing" '--set Specimen/target pressure = 0 Pa: must satisfy .*> 0.*' \
+  "Specimen/target pressure=0 Pa"
+sample_set "a box too dense for its shells" '--set Specimen/porosity = 0\.4: must be at least 0\.[0-9]+ .*' \
+  "Specimen/porosity=0.4"
+sample_set "a box too loose for its pressure" \
+  '--set Specimen/porosity = 0\.7: cannot be met together with .*lock between 0\.[0-9]+ .*' \
+  "Specimen/porosity=0.7" "Specimen/upscaling ratio=14" "Specimen/target pressure=50 kPa"
+edited case.prm '/set symmetry/d'
+refuse "a pile in a whole cylinder" '--set Specimen/shape = cylinder: .*half cylinder.*' \
+  pile case.prm --output out --set "Specimen/shape=cylinder"
+refuse_set "a pile's rock under pressure" "${place}Specimen/packing = confined: .*use .unjammed." \
+  "Specimen/packing=confined"
+
 ## one bond
 cp "$root/apps/cases/bond_fig5a.prm" bond.prm
 path='bond\.prm:[0-9]+: Loading/path = .*'

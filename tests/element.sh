@@ -17,7 +17,7 @@ run() {
   local legs=(--set "Loading/leg 1=$1" --set "Loading/leg 2=$2" --set "Loading/leg 3=$3" --set "Loading/leg 4=$4")
   local out=$5
   shift 5
-  "$mergel" element "$case_file" --set "Specimen/particles=400" "${legs[@]}" "$@" --output "$out" >"$out.log" 2>&1
+  "$mergel" element "$case_file" --set "Specimen/edge x=3.9 mm" --set "Specimen/edge y=3.9 mm" --set "Specimen/edge z=3.9 mm" "${legs[@]}" "$@" --output "$out" >"$out.log" 2>&1
 }
 # FILE NAME: the first value of this name in a summary
 value() { awk -F': ' -v name="\"$2" 'index($1, name) { print $2 + 0; exit }' "$1/summary.json"; }

@@ -16,7 +16,9 @@ Handle create_array(hid_t file, const std::string& name, hid_t type, const Shape
 void write_array(hid_t file, const std::string& name, hid_t type, const void* data,
                  const Shape& shape)
 {
-  Handle array = create_array(file, name, type, shape);
+  const Handle plain(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe an array");
+  H5Pset_obj_track_times(plain, false); // equal data, equal files
+  Handle array = create_array(file, name, type, shape, plain);
   if (shape.rows > 0 && H5Dwrite(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
     throw NumericalError("HDF5 cannot write " + name);
   array.finish("write " + name);

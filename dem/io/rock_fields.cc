@@ -71,7 +71,12 @@ void write_bonds(const std::filesystem::path& file, const Rock& rock)
   Field V = vector("V", n), M = vector("M", n), T = scalar("T", std::vector<double>(n));
   for (std::size_t b = 0; b < n; ++b) {
     const Pair& q = rock.bonds.pairs[b];
-    lines.push_back({q.i, q.j});
+    Index end = q.j;
+    if (q.shift != Shift{}) { // the line ends at the image, it does not cross the cell
+      end = static_cast<Index>(x.size());
+      x.push_back(rock.particles.body[q.j].x + rock.cell.offset(q.shift));
+    }
+    lines.push_back({q.i, end});
     const BondReading r =
         read_bond(rock.bonds, b, rock.particles, rock.cell, rock.material.bond);
     N.values[b] = r.N;

@@ -13,7 +13,7 @@ void write_particles(const std::filesystem::path& file, const Rock& rock,
                      const std::vector<Vec3>& x_0);
 
 /// Lines between particles that were ever bonded, with N (tension positive) [N], V [N], M
-/// [N m] and D.
+/// [N m] and D. A bond through a periodic face ends at the image of its second particle.
 void write_bonds(const std::filesystem::path& file, const Rock& rock);
 
 /// The half of the pile at y >= 0, up to z_top [m].

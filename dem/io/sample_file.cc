@@ -13,7 +13,7 @@ using namespace hdf5;
 
 namespace {
 
-constexpr int version = 1;
+constexpr int version = 2;
 const char* const format = "mergel sample";
 
 const Seal sample_seal{"sample", "FNV-1a", "make it again with `mergel sample`",
@@ -23,8 +23,11 @@ const Seal sample_seal{"sample", "FNV-1a", "make it again with `mergel sample`",
 struct Columns {
   std::vector<double> x, R, m, S;
   std::vector<std::uint32_t> bonds;
+  std::vector<std::int16_t> shifts;
+  std::vector<double> cell;
   std::string keys, values; ///< one line each
-  double bond_limit = 0.0, porosity = 0.0, whole_porosity = 0.0, overlap = 0.0;
+  double bond_limit = 0.0, porosity = 0.0, whole_porosity = 0.0, overlap = 0.0,
+         pressure = 0.0, friction = 0.0;
 };
 
 std::vector<std::string> lines(const std::string& text)
@@ -46,7 +49,11 @@ Columns to_columns(const Sample& s)
     c.m.push_back(b.m);
     c.S.push_back(b.S);
   }
-  for (const Pair& q : s.bonding.pairs) c.bonds.insert(c.bonds.end(), {q.i, q.j});
+  for (const Pair& q : s.bonding.pairs) {
+    c.bonds.insert(c.bonds.end(), {q.i, q.j});
+    c.shifts.insert(c.shifts.end(), q.shift.begin(), q.shift.end());
+  }
+  c.cell = {s.packing.cell.size.x(), s.packing.cell.size.y(), s.packing.cell.size.z()};
   for (const auto& [key, value] : s.recipe) {
     c.keys += key + '\n';
     c.values += value + '\n';
@@ -55,6 +62,8 @@ Columns to_columns(const Sample& s)
   c.porosity = s.packing.porosity;
   c.whole_porosity = s.packing.whole_porosity;
   c.overlap = s.packing.overlap;
+  c.pressure = s.packing.pressure;
+  c.friction = s.packing.friction;
   return c;
 }
 
@@ -73,6 +82,9 @@ std::string hdf5_bytes(const Columns& c)
   write_array(file, "m", H5T_NATIVE_DOUBLE, c.m.data(), {c.R.size(), 1});
   write_array(file, "S", H5T_NATIVE_DOUBLE, c.S.data(), {c.R.size(), 1});
   write_array(file, "bonds", H5T_NATIVE_UINT32, c.bonds.data(), {c.bonds.size() / 2, 2});
+  write_array(file, "bond_shifts", H5T_NATIVE_INT16, c.shifts.data(),
+              {c.shifts.size() / 3, 3});
+  write_array(file, "cell", H5T_NATIVE_DOUBLE, c.cell.data(), {3, 1});
   write_array(file, "recipe_keys", H5T_NATIVE_CHAR, c.keys.data(), {c.keys.size(), 1});
   write_array(file, "recipe_values", H5T_NATIVE_CHAR, c.values.data(),
               {c.values.size(), 1});
@@ -83,6 +95,8 @@ std::string hdf5_bytes(const Columns& c)
   write_attribute(file, "porosity", H5T_NATIVE_DOUBLE, &c.porosity);
   write_attribute(file, "whole_porosity", H5T_NATIVE_DOUBLE, &c.whole_porosity);
   write_attribute(file, "overlap", H5T_NATIVE_DOUBLE, &c.overlap);
+  write_attribute(file, "pressure", H5T_NATIVE_DOUBLE, &c.pressure);
+  write_attribute(file, "friction", H5T_NATIVE_DOUBLE, &c.friction);
   if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw NumericalError("HDF5 cannot flush");
   const ssize_t size = H5Fget_file_image(file, nullptr, 0);
   std::string bytes(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
@@ -92,18 +106,25 @@ std::string hdf5_bytes(const Columns& c)
   return bytes;
 }
 
+Pair bond_of(const Columns& c, std::size_t b)
+{
+  return {c.bonds[2 * b],
+          c.bonds[2 * b + 1],
+          {c.shifts[3 * b], c.shifts[3 * b + 1], c.shifts[3 * b + 2]}};
+}
+
 /// @throws InputError when the arrays do not fit each other, or a grain or bond cannot be
 void check(const Columns& c)
 {
-  const std::size_t n = c.R.size();
-  bool fits = c.x.size() == 3 * n && c.m.size() == n && c.S.size() == n;
+  const std::size_t n = c.R.size(), n_bonds = c.bonds.size() / 2;
+  bool fits = c.x.size() == 3 * n && c.m.size() == n && c.S.size() == n &&
+              c.cell.size() == 3 && c.shifts.size() == 3 * n_bonds;
   fits = fits && std::count(c.keys.begin(), c.keys.end(), '\n') ==
                      std::count(c.values.begin(), c.values.end(), '\n');
-  for (std::size_t k = 0; k < c.bonds.size(); k += 2) {
-    const std::uint32_t i = c.bonds[k], j = c.bonds[k + 1];
-    fits = fits && i < j && j < n;
-    if (k > 0) // ascending: none twice
-      fits = fits && std::pair(c.bonds[k - 2], c.bonds[k - 1]) < std::pair(i, j);
+  for (const double edge : c.cell) fits = fits && std::isfinite(edge) && edge >= 0.0;
+  for (std::size_t b = 0; fits && b < n_bonds; ++b) {
+    const Pair q = bond_of(c, b);
+    fits = q.i < q.j && q.j < n && (b == 0 || bond_of(c, b - 1) < q); // none twice
   }
   if (!fits) throw InputError("is damaged (its arrays do not fit each other)");
 
@@ -141,6 +162,8 @@ Columns read_columns(const std::filesystem::path& path)
     c.m = read_array<double>(file, "m", H5T_NATIVE_DOUBLE, 1);
     c.S = read_array<double>(file, "S", H5T_NATIVE_DOUBLE, 1);
     c.bonds = read_array<std::uint32_t>(file, "bonds", H5T_NATIVE_UINT32, 2);
+    c.shifts = read_array<std::int16_t>(file, "bond_shifts", H5T_NATIVE_INT16, 3);
+    c.cell = read_array<double>(file, "cell", H5T_NATIVE_DOUBLE, 1);
     const auto text = [&](const char* name) {
       const auto chars = read_array<char>(file, name, H5T_NATIVE_CHAR, 1);
       return std::string(chars.begin(), chars.end());
@@ -151,6 +174,8 @@ Columns read_columns(const std::filesystem::path& path)
     read_attribute(file, "porosity", H5T_NATIVE_DOUBLE, &c.porosity);
     read_attribute(file, "whole_porosity", H5T_NATIVE_DOUBLE, &c.whole_porosity);
     read_attribute(file, "overlap", H5T_NATIVE_DOUBLE, &c.overlap);
+    read_attribute(file, "pressure", H5T_NATIVE_DOUBLE, &c.pressure);
+    read_attribute(file, "friction", H5T_NATIVE_DOUBLE, &c.friction);
   } catch (const NumericalError& e) {
     throw InputError(std::string("is damaged (") + e.what() +
                      "); make it again with `mergel sample`");
@@ -178,12 +203,15 @@ Sample read_sample(const std::filesystem::path& file)
     b.S = c.S[i];
     s.packing.particles.add(b);
   }
-  for (std::size_t k = 0; k < c.bonds.size(); k += 2)
-    s.bonding.pairs.push_back({c.bonds[k], c.bonds[k + 1], {}});
+  for (std::size_t b = 0; b < c.bonds.size() / 2; ++b)
+    s.bonding.pairs.push_back(bond_of(c, b));
+  s.packing.cell.size = {c.cell[0], c.cell[1], c.cell[2]};
   s.bonding.limit = c.bond_limit;
   s.packing.porosity = c.porosity;
   s.packing.whole_porosity = c.whole_porosity;
   s.packing.overlap = c.overlap;
+  s.packing.pressure = c.pressure;
+  s.packing.friction = c.friction;
   const auto keys = lines(c.keys), values = lines(c.values);
   for (std::size_t k = 0; k < std::min(keys.size(), values.size()); ++k)
     s.recipe.emplace_back(keys[k], values[k]);

@@ -1,7 +1,7 @@
 /// Specimens on disk (HDF5): grains and bonds, and what they were made from.
 #pragma once
 
-#include "dem/packing.h"
+#include "dem/bonding.h"
 
 #include <filesystem>
 #include <string>
@@ -20,9 +20,12 @@ struct Sample {
 };
 
 /// Datasets `x` (N x 3, m), `R` (N, m), `m` (N, kg), `S` (N), `bonds` (N_bonds x 2, ids),
-/// `recipe_keys`, `recipe_values`; attributes `format`, `version`, `bond_limit`,
-/// `porosity`, `whole_porosity`, `overlap`. After the HDF5 data, which readers of HDF5 do not
-/// see, stands the FNV-1a sum of all bytes. The file is replaced whole.
+/// `bond_shifts` (N_bonds x 3, edges of the cell that the second grain's image is away), `cell`
+/// (3, m, edges of the periodic cell; 0: not periodic), `recipe_keys`, `recipe_values`;
+/// attributes `format`, `version`, `bond_limit`, `porosity`, `whole_porosity`, `overlap`,
+/// `pressure` (Pa), `friction` (while packed). After the HDF5 data, which readers of HDF5 do not
+/// see, stands the FNV-1a sum of all bytes. The same sample is
+/// the same file, byte for byte. It is replaced whole.
 /// @throws NumericalError when it cannot be written
 void write_sample(const std::filesystem::path& file, const Sample& sample);
 

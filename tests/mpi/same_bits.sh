@@ -50,7 +50,7 @@ broken=$(awk -F': ' '/"bonds broken/ { print $2 + 0 }' pile1/summary.json)
 echo "pile: $broken broken, the same history and grains on 1, 2, 3, 4, 8 ranks"
 
 # An element test with a servo, unloading included.
-element=(--set "Specimen/particles=400" --set "Loading/leg 2=triaxial to axial strain = 0.6 %"
+element=(--set "Specimen/edge x=3.9 mm" --set "Specimen/edge y=3.9 mm" --set "Specimen/edge z=3.9 mm" --set "Loading/leg 2=triaxial to axial strain = 0.6 %"
   --set "Loading/leg 3=unload-reload to q = 0.5 MPa" --set "Loading/leg 4=resume to axial strain = 0.7 %")
 for n in 1 2 3 4; do
   ranks $n "$mergel" element "$root/apps/cases/element_small.prm" "${element[@]}" --output "element$n" >log 2>&1 ||
@@ -58,6 +58,14 @@ for n in 1 2 3 4; do
   cmp element1/history.csv "element$n/history.csv" || fail "the element test on $n ranks differs from one"
 done
 echo "element: the same history on 1, 2, 3, 4 ranks"
+# A specimen under pressure, whose settling the ranks share.
+for n in 1 2 3; do
+  ranks $n "$mergel" sample "$root/apps/cases/sample_rock.prm" --set "Specimen/upscaling ratio=12" \
+    --set "Specimen/target pressure=20 kPa" --output "sample$n" >log 2>&1 ||
+    fail "the specimen on $n ranks: $(tail -3 log)"
+  cmp sample1/sample.h5 "sample$n/sample.h5" || fail "the specimen on $n ranks differs from one"
+done
+echo "specimen: $(grep -o '^specimen: [0-9]* grains' log), the same file on 1, 2, 3 ranks"
 
 # A rank that fails takes the others down, and says which it is.
 code=0

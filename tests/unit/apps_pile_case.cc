@@ -67,7 +67,7 @@ TEST_CASE("pile_paper is Table 4: sizes, 9 grains per diameter, 10,000 cells",
   CHECK(c.final_depth == 6.0 * c.diameter);
   CHECK(c.velocity == 1.35);
   // D_p/d50 = 9 where the pile goes: the mean diameter in number is 0.0999 mm at S = 1.
-  const double d50 = 0.5 * (c.rock.specimen.d_min + c.rock.specimen.d_max);
+  const double d50 = c.rock.specimen.sizes.diameter(0.5);
   CHECK(c.diameter / (c.rock.specimen.scale.at(0.0) * d50) == Approx(9.0).epsilon(0.05));
   // The number of grains follows from volume, porosity and S(r): 195,000 in the paper.
   double n = 0.0;

@@ -33,7 +33,10 @@ Sample three_grains()
   s.packing.porosity = 0.52;
   s.packing.whole_porosity = 0.54;
   s.packing.overlap = 1e-4;
-  s.bonding = {{{0, 1, {}}, {1, 2, {}}}, 1.5e-5};
+  s.packing.pressure = 5.1e3;
+  s.packing.friction = 0.025;
+  s.packing.cell.size = {0.3, 1.0, 2.0 / 3.0};
+  s.bonding = {{{0, 1, {}}, {1, 2, {-1, 0, 2}}}, 1.5e-5};
   s.recipe = {{"porosity", "0.52"}, {"seed", "1"}};
   return s;
 }
@@ -75,6 +78,9 @@ TEST_CASE("a sample is read back bit for bit", "[unit][dem]")
   CHECK(r.bonding.pairs == s.bonding.pairs);
   CHECK(r.bonding.limit == s.bonding.limit);
   CHECK(r.packing.porosity == s.packing.porosity);
+  CHECK(r.packing.pressure == s.packing.pressure);
+  CHECK(r.packing.friction == s.packing.friction);
+  CHECK(r.packing.cell.size == s.packing.cell.size);
   CHECK(r.recipe == s.recipe);
   CHECK(difference(r, s.recipe).empty());
 }

@@ -1,0 +1,440 @@
+#include "apps/specimen_keys.h"
+
+#include "apps/progress.h"
+#include "dem/io/history.h"
+#include "dem/io/psd_file.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace mergel::apps {
+
+namespace {
+
+using Shape = SpecimenKeys::Shape;
+using Sizes = SpecimenKeys::Sizes;
+using Upscaling = SpecimenKeys::Upscaling;
+
+const std::string half_cylinder = "half cylinder", cylinder = "cylinder",
+                  periodic_box = "periodic box";
+const std::string uniform_in_number = "uniform in number", power_law = "power law",
+                  log_normal = "log-normal", from_table = "table";
+
+void declare_shape(CaseFile& file, SpecimenKeys& k)
+{
+  file.choice(
+      "shape", k.shape,
+      std::vector<std::pair<std::string, Shape>>{{half_cylinder, Shape::half_cylinder},
+                                                 {cylinder, Shape::cylinder},
+                                                 {periodic_box, Shape::periodic_box}},
+      "Of the DEM region: half of an upright cylinder cut at y = 0, a whole one, or "
+      "a box that goes on beyond its faces.");
+  {
+    const auto only = file.only_if("shape", {half_cylinder, cylinder});
+    file.quantity("diameter", k.diameter, "m", positive, "Diameter of the DEM region.",
+                  "mm");
+    file.quantity("height", k.height, "m", positive, "Height of the DEM region.", "mm");
+  }
+  {
+    const auto only = file.only_if("shape", {cylinder});
+    file.integer("faces around the side", k.faces, at_least(3.0),
+                 "The side is a prism of so many planes inside the circle.");
+  }
+  {
+    const auto only = file.only_if("shape", {periodic_box});
+    file.quantity("edge x", k.edges.x(), "m", positive, "Edge of the box.", "mm");
+    file.quantity("edge y", k.edges.y(), "m", positive, "Edge of the box.", "mm");
+    file.quantity("edge z", k.edges.z(), "m", positive, "Edge of the box.", "mm");
+  }
+  const auto only = file.only_if("shape", {half_cylinder});
+  file.choice("symmetry", k.symmetry,
+              std::vector<std::pair<std::string, dem::Symmetry>>{
+                  {"mirror", dem::Symmetry::mirror}, {"wall", dem::Symmetry::wall}},
+              "Cut plane: grains bonded to their mirror image, or images in contact only.");
+}
+
+void declare_sizes(CaseFile& file, SpecimenKeys& k)
+{
+  file.choice(
+      "sizes", k.sizes,
+      std::vector<std::pair<std::string, Sizes>>{{uniform_in_number, Sizes::uniform},
+                                                 {power_law, Sizes::power},
+                                                 {log_normal, Sizes::log_normal},
+                                                 {from_table, Sizes::table}},
+      "Grading: all diameters equally often; by mass a power law (Fuller and "
+      "Thompson 1907, Talbot and Richart 1923) or log-normal; or a sieve curve.");
+  {
+    const auto only = file.only_if("sizes", {uniform_in_number, power_law, log_normal});
+    file.quantity("smallest diameter", k.d_min, "m", positive,
+                  "Smallest grain at S = 1, d00.", "mm");
+    file.quantity("largest diameter", k.d_max, "m", positive, "Largest grain at S = 1.",
+                  "mm");
+  }
+  {
+    const auto only = file.only_if("sizes", {power_law});
+    file.number("exponent", k.exponent, above_to(0.0, 3.0),
+                "Of the share by mass over the diameter; 0.5 is Fuller's curve.");
+  }
+  {
+    const auto only = file.only_if("sizes", {log_normal});
+    file.quantity("median diameter", k.d_50, "m", positive,
+                  "By mass, at S = 1, before the curve is cut at its ends.", "mm");
+    file.number("spread", k.spread, above_to(0.0, 3.0),
+                "Standard deviation of the logarithm of the diameter.");
+  }
+  const auto only = file.only_if("sizes", {from_table});
+  file.path("size table", k.table,
+            "Sieve curve at S = 1: columns `diameter [mm]`, `passing [%]` by mass.",
+            Default::none);
+}
+
+void declare_upscaling(CaseFile& file, SpecimenKeys& k)
+{
+  dem::GradedScale& s = k.specimen.scale;
+  s = {unset, unset, unset, unset};
+  file.choice("upscaling", k.upscaling,
+              std::vector<std::pair<std::string, Upscaling>>{
+                  {"graded", Upscaling::graded}, {"uniform", Upscaling::uniform}},
+              "Ratio S of the grains to those of the rock: growing with the distance from "
+              "the axis, or the same everywhere.");
+  {
+    const auto only = file.only_if("upscaling", {"uniform"});
+    file.number("upscaling ratio", k.S, positive, "S of all grains.");
+  }
+  const auto only = file.only_if("upscaling", {"graded"});
+  file.number("inner upscaling", s.S_inner, positive,
+              "Upscaling ratio S up to the inner radius.");
+  file.number("outer upscaling", s.S_outer, positive,
+              "Upscaling ratio S from the outer radius on; linear between.");
+  file.quantity("inner radius", s.r_inner, "m", non_negative,
+                "Distance from the axis up to which S is the inner upscaling.", "mm");
+  file.quantity("outer radius", s.r_outer, "m", positive,
+                "Distance from the axis from which S is the outer upscaling.", "mm");
+}
+
+void declare_packing(CaseFile& file, SpecimenKeys& k)
+{
+  dem::SpecimenSpec& s = k.specimen;
+  s.rho = s.porosity = s.coordination = s.g_b = unset;
+  file.quantity("grain density", s.rho, "kg/m3", positive,
+                "Density of the grains, not of the rock.");
+  file.number("porosity", s.porosity, inside(0.0, 1.0),
+              "Target porosity of the core, by true sphere volumes.");
+  file.choice("packing", s.compaction,
+              std::vector<std::pair<std::string, dem::Compaction>>{
+                  {"unjammed", dem::Compaction::unjammed},
+                  {"confined", dem::Compaction::confined},
+                  {"expanded", dem::Compaction::expanded}},
+              "No far-field contact presses; the porosity and a pressure are met together; "
+              "or radii grow to the porosity, whatever the pressure then is.");
+  {
+    const auto only = file.only_if("packing", {"confined"});
+    s.pressure = 5e3;
+    file.quantity("target pressure", s.pressure, "Pa", positive,
+                  "Mean stress of the unbonded grains at rest, met within a fifth.", "kPa");
+  }
+  {
+    const auto only = file.only_if("packing", {"expanded"});
+    file.number("generation friction", s.friction, non_negative,
+                "Between the grains while they come to rest.");
+  }
+  file.number("coordination", s.coordination, positive,
+              "Target Z = 2 N_bonds/N; the bond gap may end it earlier.");
+  file.quantity("bond gap", s.g_b, "m", non_negative,
+                "Largest gap that is bonded, g_b at S = 1; scales with S, Eq. 8.", "mm");
+  file.integer("seed", s.seed, non_negative, "Of the random cloud of grains.");
+  file.path("file", k.sample,
+            "A specimen made before by mergel sample; empty: make it for this run.");
+}
+
+std::string in_mm(double x)
+{
+  return dem::shortest(1e3 * x) + " mm";
+}
+
+dem::SizeCurve curve_of(const CaseFile& file, const SpecimenKeys& k)
+{
+  switch (k.sizes) {
+  case Sizes::uniform:
+    return dem::UniformSizes{k.d_min, k.d_max};
+  case Sizes::power:
+    return dem::PowerSizes{k.d_min, k.d_max, k.exponent};
+  case Sizes::log_normal:
+    return dem::LogNormalSizes{k.d_min, k.d_max, k.d_50, k.spread};
+  case Sizes::table:
+    break;
+  }
+  try {
+    return dem::read_sieve_curve(k.table);
+  } catch (const InputError& e) {
+    file.refuse("Specimen", "size table", e.what());
+  }
+}
+
+dem::Region region_of(const SpecimenKeys& k)
+{
+  switch (k.shape) {
+  case Shape::half_cylinder:
+    return dem::HalfCylinder{0.5 * k.diameter, k.height, 2};
+  case Shape::cylinder:
+    return dem::Cylinder{0.5 * k.diameter, k.height, k.faces};
+  case Shape::periodic_box:
+    break;
+  }
+  return dem::PeriodicBox{k.edges};
+}
+
+/// The key that would mend grains that are too large.
+const char* ratio_key(const SpecimenKeys& k)
+{
+  if (k.upscaling == Upscaling::uniform) return "upscaling ratio";
+  const dem::GradedScale& s = k.specimen.scale;
+  return s.S_inner > s.S_outer ? "inner upscaling" : "outer upscaling";
+}
+
+const char* finest_key(const SpecimenKeys& k)
+{
+  return k.sizes == Sizes::table ? "size table" : "smallest diameter";
+}
+
+} // namespace
+
+void declare(CaseFile& file, SpecimenKeys& k)
+{
+  const auto section = file.section("Specimen");
+  declare_shape(file, k);
+  declare_sizes(file, k);
+  declare_upscaling(file, k);
+  declare_packing(file, k);
+}
+
+void complete(const CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& contact)
+{
+  dem::SpecimenSpec& s = k.specimen;
+  s.contact = contact;
+  if (k.sizes != Sizes::table && k.d_max < k.d_min)
+    file.refuse("Specimen", "largest diameter", "must not be below `smallest diameter`");
+  try {
+    s.sizes = dem::Grading(curve_of(file, k));
+  } catch (const InputError& e) { // the file of a table names itself
+    if (k.sizes == Sizes::log_normal) file.refuse("Specimen", "spread", e.what());
+    throw;
+  }
+  if (k.upscaling == Upscaling::uniform)
+    s.scale = {k.S, k.S, 0.0, 0.0};
+  else if (k.shape == Shape::periodic_box)
+    file.refuse("Specimen", "upscaling",
+                "a periodic box has no axis: use `upscaling = uniform`");
+  else if (s.scale.r_outer <= s.scale.r_inner)
+    file.refuse("Specimen", "outer radius", "must be beyond `inner radius`");
+  if (k.shape == Shape::half_cylinder && s.compaction != dem::Compaction::unjammed)
+    file.refuse(
+        "Specimen", "packing",
+        "a half cylinder comes to rest inside the walls of its run: use `unjammed`");
+  s.region = region_of(k);
+
+  const double largest = s.sizes.largest() * std::max(s.scale.S_inner, s.scale.S_outer);
+  if (largest >= 0.5 * dem::least_width(s.region))
+    file.refuse("Specimen", ratio_key(k),
+                "the largest grain, " + in_mm(largest) +
+                    ", does not fit the region: lower the ratio or enlarge the region");
+  if (dem::most_grains(s) > dem::grains_limit)
+    file.refuse(
+        "Specimen", finest_key(k),
+        "the region may hold more than 2e7 grains: raise the diameters or the upscaling "
+        "ratio");
+  // Shells ten times the volume of their spheres: a slip of units, no rock.
+  if (dem::effective_solid_fraction(s) > 10.0 * (1.0 - s.porosity))
+    file.refuse("Contact", "activation gap",
+                "with it the grains reach ten times their volume: lower it, or raise "
+                "`Specimen/" +
+                    std::string(finest_key(k)) + "`, " + in_mm(s.sizes.smallest()));
+  try {
+    s.check();
+  } catch (const InputError& e) {
+    file.refuse("Specimen", "porosity", e.what());
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> recipe(const SpecimenKeys& k)
+{
+  const dem::SpecimenSpec& s = k.specimen;
+  const auto text = [](double x) { return dem::shortest(x); };
+  const auto length = [](double x) { return dem::shortest(x) + " m"; };
+  std::vector<std::pair<std::string, std::string>> r;
+  if (k.shape == Shape::periodic_box) {
+    r = {{"shape", periodic_box},
+         {"edge x", length(k.edges.x())},
+         {"edge y", length(k.edges.y())},
+         {"edge z", length(k.edges.z())}};
+  } else {
+    const bool is_half = k.shape == Shape::half_cylinder;
+    const int faces = is_half ? std::get<dem::HalfCylinder>(s.region).segments
+                              : std::get<dem::Cylinder>(s.region).segments;
+    r = {{"shape", is_half ? half_cylinder : cylinder},
+         {"diameter", length(k.diameter)},
+         {"height", length(k.height)},
+         {"faces around the side", std::to_string(faces)}};
+  }
+  switch (k.sizes) {
+  case Sizes::uniform:
+    r.emplace_back("sizes", uniform_in_number);
+    break;
+  case Sizes::power:
+    r.emplace_back("sizes", power_law);
+    r.emplace_back("exponent", text(k.exponent));
+    break;
+  case Sizes::log_normal:
+    r.emplace_back("sizes", log_normal);
+    r.emplace_back("median diameter", length(k.d_50));
+    r.emplace_back("spread", text(k.spread));
+    break;
+  case Sizes::table: { // the curve itself: the file may move or change
+    std::string points;
+    for (int p = 0; p <= 100; ++p)
+      points += (p > 0 ? " " : "") + text(s.sizes.diameter(0.01 * p));
+    r.emplace_back("sizes", from_table);
+    r.emplace_back("diameters in hundredths by number", points);
+    break;
+  }
+  }
+  r.insert(r.end(), {{"smallest diameter", length(s.sizes.smallest())},
+                     {"largest diameter", length(s.sizes.largest())},
+                     {"grain density", text(s.rho) + " kg/m3"},
+                     {"porosity", text(s.porosity)},
+                     {"coordination", text(s.coordination)},
+                     {"bond gap", length(s.g_b)},
+                     {"activation gap", length(s.contact.g_a)},
+                     {"inner upscaling", text(s.scale.S_inner)},
+                     {"outer upscaling", text(s.scale.S_outer)},
+                     {"inner radius", length(s.scale.r_inner)},
+                     {"outer radius", length(s.scale.r_outer)}});
+  if (s.compaction != dem::Compaction::unjammed) {
+    const bool is_confined = s.compaction == dem::Compaction::confined;
+    r.emplace_back("packing", is_confined ? "confined" : "expanded");
+    if (is_confined)
+      r.emplace_back("target pressure", text(s.pressure) + " Pa");
+    else
+      r.emplace_back("generation friction", text(s.friction));
+    r.insert(r.end(), {{"contact modulus", text(s.contact.E) + " Pa"},
+                       {"contact stiffness ratio", text(s.contact.kappa)},
+                       {"contact friction", text(s.contact.mu)},
+                       {"free rotation", s.free_rotation ? "true" : "false"}});
+  }
+  r.emplace_back("seed", std::to_string(s.seed));
+  return r;
+}
+
+dem::Sample obtain_sample(const CaseFile& file, const SpecimenKeys& k)
+{
+  if (!k.sample.empty()) {
+    dem::Sample sample;
+    try {
+      sample = dem::read_sample(k.sample);
+    } catch (const InputError& e) {
+      file.refuse("Specimen", "file", e.what());
+    }
+    const std::string differs = dem::difference(sample, recipe(k));
+    if (!differs.empty())
+      file.refuse("Specimen", "file",
+                  differs +
+                      "; make a new sample, or clear the key to make it for this run");
+    return sample;
+  }
+
+  Progress progress("specimen");
+  dem::Sample sample;
+  try {
+    sample.packing = dem::pack(
+        k.specimen, [&](double fraction) { progress.update(fraction); }, MPI_COMM_WORLD);
+  } catch (const InputError& e) {
+    file.refuse("Specimen", "porosity", e.what());
+  }
+  sample.bonding =
+      dem::choose_bonds(k.specimen, sample.packing.particles, sample.packing.cell);
+  sample.recipe = recipe(k);
+  progress.done(std::to_string(sample.packing.particles.size()) + " grains");
+  return sample;
+}
+
+namespace {
+
+double coordination(const dem::Sample& sample)
+{
+  return 2.0 * static_cast<double>(sample.bonding.pairs.size()) /
+         static_cast<double>(sample.packing.particles.size());
+}
+
+} // namespace
+
+std::string report(const SpecimenKeys& k, const dem::Sample& sample)
+{
+  const dem::SpecimenSpec& s = k.specimen;
+  const dem::Packing& p = sample.packing;
+  const dem::GrainRange range = dem::describe_grains(p.particles);
+  const dem::SizeReport sizes = dem::describe_sizes(s.sizes, p.particles);
+  const double Z = coordination(sample);
+  std::ostringstream out;
+  out.precision(4);
+  out << "specimen: " << p.particles.size() << " grains of " << 1e3 * range.d_min << " to "
+      << 1e3 * range.d_max << " mm, S " << range.S_min << " to " << range.S_max
+      << "; porosity " << p.porosity << " in the core (wanted " << s.porosity << "), "
+      << p.whole_porosity << " in all; pressure " << 1e-3 * p.pressure << " kPa";
+  if (s.compaction == dem::Compaction::confined)
+    out << " (wanted " << 1e-3 * s.pressure << "), friction while packed " << p.friction;
+  out << "; " << sample.bonding.pairs.size() << " bonds, Z = 2 N_bonds/N = " << Z
+      << " (wanted " << s.coordination << "), N_bonds/N = " << 0.5 * Z << ", bonded up to "
+      << sample.bonding.limit / s.sizes.smallest() << " d00 S; largest overlap "
+      << p.overlap << "\ngrain sizes at S = 1 by mass, made (wanted): d10 "
+      << 1e3 * sizes.d_10 << " (" << 1e3 * s.sizes.sieve(0.1) << ") mm, d50 "
+      << 1e3 * sizes.d_50 << " (" << 1e3 * s.sizes.sieve(0.5) << ") mm, d90 "
+      << 1e3 * sizes.d_90 << " (" << 1e3 * s.sizes.sieve(0.9)
+      << ") mm; the curves differ by " << sizes.distance_by_mass << " at most";
+  if (p.cell.is_periodic())
+    out << "\nperiodic box as made: " << 1e3 * p.cell.size.x() << " x "
+        << 1e3 * p.cell.size.y() << " x " << 1e3 * p.cell.size.z() << " mm";
+  return out.str();
+}
+
+std::string summary(const SpecimenKeys& k, const dem::Sample& sample)
+{
+  const dem::SpecimenSpec& s = k.specimen;
+  const dem::Packing& p = sample.packing;
+  const dem::GrainRange range = dem::describe_grains(p.particles);
+  const dem::SizeReport sizes = dem::describe_sizes(s.sizes, p.particles);
+  const std::vector<std::pair<const char*, double>> numbers{
+      {"particles [-]", static_cast<double>(p.particles.size())},
+      {"porosity [-]", p.porosity},
+      {"porosity wanted [-]", s.porosity},
+      {"porosity of the whole region [-]", p.whole_porosity},
+      {"pressure [Pa]", p.pressure},
+      {"friction while packed [-]", p.friction},
+      {"bonds [-]", static_cast<double>(sample.bonding.pairs.size())},
+      {"coordination Z = 2 N_bonds/N [-]", coordination(sample)},
+      {"coordination wanted [-]", s.coordination},
+      {"N_bonds/N [-]", 0.5 * coordination(sample)},
+      {"largest bonded gap over S [m]", sample.bonding.limit},
+      {"largest overlap over distance [-]", p.overlap},
+      {"smallest S [-]", range.S_min},
+      {"largest S [-]", range.S_max},
+      {"smallest diameter [m]", range.d_min},
+      {"largest diameter [m]", range.d_max},
+      {"d10 at S = 1 [m]", sizes.d_10},
+      {"d10 wanted [m]", s.sizes.sieve(0.1)},
+      {"d50 at S = 1 [m]", sizes.d_50},
+      {"d50 wanted [m]", s.sizes.sieve(0.5)},
+      {"d90 at S = 1 [m]", sizes.d_90},
+      {"d90 wanted [m]", s.sizes.sieve(0.9)},
+      {"largest difference of the size curves by mass [-]", sizes.distance_by_mass},
+      {"largest difference of the size curves by number [-]", sizes.distance_by_number},
+      {"periodic edge x [m]", p.cell.size.x()},
+      {"periodic edge y [m]", p.cell.size.y()},
+      {"periodic edge z [m]", p.cell.size.z()}};
+  std::string text;
+  for (const auto& [name, value] : numbers)
+    text += (text.empty() ? "{\n  \"" : ",\n  \"") + std::string(name) +
+            "\": " + dem::shortest(value);
+  return text + "\n}\n";
+}
+
+} // namespace mergel::apps

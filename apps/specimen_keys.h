@@ -1,0 +1,57 @@
+/// Section `Specimen` of a case: shape, grain sizes, upscaling, density of packing, bonding; the
+/// same in every job that makes a specimen.
+#pragma once
+
+#include "apps/material_keys.h"
+#include "dem/io/sample_file.h"
+#include "dem/step.h"
+
+namespace mergel::apps {
+
+struct SpecimenKeys {
+  enum class Shape { half_cylinder, cylinder, periodic_box };
+  enum class Sizes { uniform, power, log_normal, table };
+  enum class Upscaling { graded, uniform };
+
+  Shape shape = Shape::half_cylinder;
+  double diameter = unset, height = unset;      ///< of a cylinder or half of one [m]
+  int faces = 48;                               ///< around the side of a cylinder
+  dem::Vec3 edges = dem::Vec3::Constant(unset); ///< of a periodic box [m]
+
+  Sizes sizes = Sizes::uniform;
+  double d_min = unset, d_max = unset; ///< at S = 1 [m]
+  double exponent = 0.5;               ///< of a power law [-]
+  double d_50 = unset, spread = unset; ///< of a log-normal law [m], [-]
+  std::filesystem::path table;         ///< of a sieve curve
+
+  Upscaling upscaling = Upscaling::graded;
+  double S = unset; ///< the same everywhere
+
+  dem::SpecimenSpec specimen; ///< region, sizes and contact are set by complete()
+  dem::Symmetry symmetry = dem::Symmetry::mirror;
+  std::filesystem::path sample; ///< empty: make the specimen
+};
+
+/// Declare the keys of `Specimen`; defaults of the choices are those that `k` holds.
+void declare(CaseFile& file, SpecimenKeys& k);
+
+/// Fill k.specimen from the keys and this far-field contact, and check it. The sides of a half
+/// cylinder are the far field's, which has no mesh yet: two of them, enough for the checks.
+/// @throws InputError naming file, line and key
+void complete(const CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& contact);
+
+/// Key and value of everything that fixes a specimen, in a fixed order.
+std::vector<std::pair<std::string, std::string>> recipe(const SpecimenKeys& k);
+
+/// Read the sample that the case names and compare its recipe, or make one; collective.
+/// Nothing is written.
+/// @throws InputError naming file, line and key
+dem::Sample obtain_sample(const CaseFile& file, const SpecimenKeys& k);
+
+/// One paragraph on what was reached.
+std::string report(const SpecimenKeys& k, const dem::Sample& sample);
+
+/// The same as one line of JSON a number.
+std::string summary(const SpecimenKeys& k, const dem::Sample& sample);
+
+} // namespace mergel::apps

@@ -1,0 +1,15 @@
+/// Sieve curves in a text file: a table with the columns `diameter [mm]` and `passing [%]`, the
+/// share by mass below that diameter.
+#pragma once
+
+#include "dem/psd.h"
+
+#include <filesystem>
+
+namespace mergel::dem {
+
+/// Diameters ascend; passing goes from 0 to 100 and never falls.
+/// @throws InputError naming file and line
+SieveSizes read_sieve_curve(const std::filesystem::path& file);
+
+} // namespace mergel::dem
