@@ -551,10 +551,10 @@ int run_pile(const JobOptions& options)
   fem::FarField far_field = make_far_field(c.rock);
   coupling::Interface interface =
       coupling::make_interface(far_field.interface(), c.rock.interface, c.rock.lip);
-  std::cout << far_field.summary() << '\n';
   std::optional<PileOutput> output;
   std::optional<CoupledRock> coupled;
   if (restart) {
+    std::cout << far_field.summary() << '\n';
     const dem::State& state = restart->checkpoint.state;
     std::vector<dem::PileWall> piles;
     if (Installation::is_in(state)) piles.push_back(make_pile(c));
@@ -568,7 +568,7 @@ int run_pile(const JobOptions& options)
     });
   } else {
     const dem::Sample sample = obtain_sample(file, c.rock);
-    std::cout << report(c.rock, sample) << '\n';
+    std::cout << far_field.summary() << '\n' << report(c.rock, sample) << '\n';
     on_first_rank([&] {
       folder.commit(inputs);
       file.write_resolved(folder.path() / "resolved.prm");
