@@ -35,7 +35,7 @@ for file in history.csv summary.json resolved.prm; do [ -s "a/$file" ] || fail "
 # The rock of the paper has E = 1.1 GPa; 400 grains scatter by a tenth.
 within a "Young's modulus" 0.9e9 1.4e9
 within a "bulk modulus" 0.45e9 0.8e9
-# The issue allows 1e-3 of the work; measured 2e-5.
+# Allowed are 1e-3 of the work; measured 2e-5.
 within a "largest energy error" 0 2e-4
 # Lateral stress is held within 1 % in the mean of the second leg.
 awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
