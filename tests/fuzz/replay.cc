@@ -133,7 +133,8 @@ int main(int argc, char** argv)
   const Scratch scratch;
   bool is_good = true;
   for (const Reader* reader :
-       {&case_reader, &table_reader, &sample_reader, &crafted_sample_reader}) {
+       {&case_reader, &table_reader, &sample_reader, &crafted_sample_reader,
+        &checkpoint_reader, &crafted_checkpoint_reader}) {
     Replay replay(*reader, argv[1], scratch.path);
     replay.feed_corpus();
     replay.feed_mutations(n);
