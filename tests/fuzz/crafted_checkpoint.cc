@@ -76,13 +76,13 @@ void craft_checkpoint(const std::filesystem::path& file, const std::string& byte
   }();
   std::vector<CraftedArray> arrays = good;
   std::string choices = bytes.empty() ? bytes : bytes.substr(1);
-  const std::size_t first =
-      bytes.empty() ? 0 : static_cast<unsigned char>(bytes[0]) % (good.size() + 1);
-  if (first < good.size())
-    std::rotate(arrays.begin(), arrays.begin() + static_cast<std::ptrdiff_t>(first),
-                arrays.end());
-  else
+  const std::size_t first = bytes.empty() ? 0 : static_cast<unsigned char>(bytes[0]);
+  if (first == 255)
     for (const CraftedArray& a : arrays) choices.insert(0, n_choices(a), '\0');
+  else
+    std::rotate(arrays.begin(),
+                arrays.begin() + static_cast<std::ptrdiff_t>(first % good.size()),
+                arrays.end());
   craft_hdf5(file, arrays,
              {{"format", 0, 0.0, "mergel checkpoint"}, {"version", H5T_NATIVE_INT, 1.0}},
              choices);

@@ -10,7 +10,7 @@ namespace mergel::fuzz {
 void write_good_checkpoint(const std::filesystem::path& file);
 
 /// The same, with what the bytes choose (crafted_hdf5.h), sealed. The first byte tells the
-/// array to begin with, for there are many, or skips them all.
+/// array to begin with, for there are many; 255 leaves all of them as they are.
 void craft_checkpoint(const std::filesystem::path& file, const std::string& bytes);
 
 } // namespace mergel::fuzz
