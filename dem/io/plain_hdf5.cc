@@ -24,27 +24,35 @@ void require_own(hid_t file, const std::string& name)
     throw NumericalError(name + " is a link to another place");
 }
 
-void require_plain_array(hid_t array, const std::string& name, hid_t type)
+void require_in_one_piece(hid_t array, const std::string& name)
 {
   const hid_t list = H5Dget_create_plist(array);
   const bool is_in_one_piece = list >= 0 && H5Pget_layout(list) == H5D_CONTIGUOUS &&
                                H5Pget_external_count(list) == 0;
   if (list >= 0) H5Pclose(list);
   if (!is_in_one_piece) throw NumericalError(name + " does not lie in one piece");
+}
 
+void require_plain_array(hid_t array, const std::string& name, hid_t type)
+{
+  require_in_one_piece(array, name);
   const hid_t found = H5Dget_type(array);
   const bool is_as_wanted = is_alike(found, type);
   if (found >= 0) H5Tclose(found);
   if (!is_as_wanted) throw NumericalError("the type is wrong of " + name);
 }
 
-void require_single(hid_t attribute, const std::string& name, hid_t type)
+void require_single(hid_t attribute, const std::string& name)
 {
   const hid_t space = H5Aget_space(attribute);
   const bool is_single = space >= 0 && H5Sget_simple_extent_type(space) == H5S_SCALAR;
   if (space >= 0) H5Sclose(space);
-  if (!is_single) throw NumericalError(name + " is not one number");
+  if (!is_single) throw NumericalError(name + " is not one value");
+}
 
+void require_single(hid_t attribute, const std::string& name, hid_t type)
+{
+  require_single(attribute, name);
   const hid_t found = H5Aget_type(attribute);
   const bool is_as_wanted = is_alike(found, type);
   if (found >= 0) H5Tclose(found);

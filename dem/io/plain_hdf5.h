@@ -14,10 +14,14 @@ namespace mergel::dem {
 /// `name` is in the file itself: no link to another place or file.
 void require_own(hid_t file, const std::string& name);
 
-/// The array lies in the file in one piece, uncompressed, in numbers of this class and size.
+/// The array lies in the file in one piece, uncompressed.
+void require_in_one_piece(hid_t array, const std::string& name);
+/// The same, in numbers of this class and size.
 void require_plain_array(hid_t array, const std::string& name, hid_t type);
 
-/// The attribute is one number of this class and size.
+/// The attribute is one value, not an array of them.
+void require_single(hid_t attribute, const std::string& name);
+/// The same, and a number of this class and size.
 void require_single(hid_t attribute, const std::string& name, hid_t type);
 
 } // namespace mergel::dem

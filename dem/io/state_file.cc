@@ -159,7 +159,9 @@ StateArray read_one(hid_t array, const std::string& name)
 StateArray read_any(hid_t file, const std::string& name)
 {
   using namespace hdf5;
+  require_own(file, name);
   const Handle array(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open " + name);
+  require_in_one_piece(array, name);
   const Handle type(H5Dget_type(array), H5Tclose, "tell the type of " + name);
   const auto is = [&](hid_t native) { return H5Tequal(type, native) > 0; };
   if (is(H5T_NATIVE_DOUBLE)) return read_one<double>(array, name);
@@ -181,6 +183,7 @@ std::string read_format(hid_t file)
 {
   using namespace hdf5;
   const Handle a(H5Aopen(file, "format", H5P_DEFAULT), H5Aclose, "find its format");
+  require_single(a, "format");
   const Handle type(H5Aget_type(a), H5Tclose, "read its format");
   const std::size_t size = H5Tget_size(type);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || size == 0 ||
@@ -245,11 +248,12 @@ void write_state(const fs::path& file, const std::string& kind, int version,
       Descriptor out(path, file);
       std::size_t k = 0;
       for (const auto& [name, array] : mine.arrays()) {
+        const std::uint64_t first = before[k] * array.columns; // number of mine
         std::visit(
             [&](const auto& v) {
               const std::size_t size = sizeof(v[0]);
               out.write(reinterpret_cast<const char*>(v.data()), size * v.size(),
-                        begin[k] + before[k] * array.columns * size);
+                        begin[k] + first * size);
             },
             array.values);
         ++k;

@@ -1,244 +1,38 @@
 #include "tests/fuzz/crafted_sample.h"
 
+#include "tests/fuzz/crafted_hdf5.h"
 #include "tests/fuzz/reader.h"
 
-#include <hdf5.h>
-
-#include <array>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
-#include <limits>
-#include <vector>
 
 namespace mergel::fuzz {
 
 namespace {
 
-/// Takes the choices from the bytes, one after the other.
-class Choices {
-public:
-  explicit Choices(const std::string& bytes) : bytes_(bytes) {}
-  std::size_t of(std::size_t n) { return next() % n; }
-
-private:
-  unsigned char next()
-  {
-    return at_ < bytes_.size() ? static_cast<unsigned char>(bytes_[at_++]) : 0;
-  }
-  const std::string& bytes_;
-  std::size_t at_ = 0;
-};
-
 constexpr std::size_t n_grains = 3;
 
-/// One of the arrays of a good sample.
-struct Array {
-  const char* name;
-  std::vector<hsize_t> size;
-  std::vector<double> values;
-};
-
-const std::vector<Array>& good_arrays()
+std::vector<CraftedArray> good_arrays()
 {
-  static const std::vector<Array> arrays{
-      {"x", {n_grains, 3}, {0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.2, 0.0, 0.0}},
-      {"R", {n_grains}, {0.05, 0.05, 0.05}},
-      {"m", {n_grains}, {1.0, 1.0, 1.0}},
-      {"S", {n_grains}, {1.0, 2.0, 3.0}},
-      {"bonds", {2, 2}, {0.0, 1.0, 1.0, 2.0}},
-      {"recipe_keys", {2}, {'a', '\n'}},
-      {"recipe_values", {2}, {'b', '\n'}},
+  const hid_t number = H5T_NATIVE_DOUBLE, text = H5T_NATIVE_CHAR;
+  return {
+      {"x", number, {n_grains, 3}, {0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.2, 0.0, 0.0}},
+      {"R", number, {n_grains}, {0.05, 0.05, 0.05}},
+      {"m", number, {n_grains}, {1.0, 1.0, 1.0}},
+      {"S", number, {n_grains}, {1.0, 2.0, 3.0}},
+      {"bonds", H5T_NATIVE_UINT32, {2, 2}, {0.0, 1.0, 1.0, 2.0}},
+      {"recipe_keys", text, {2}, {'a', '\n'}},
+      {"recipe_values", text, {2}, {'b', '\n'}},
   };
-  return arrays;
 }
 
-hid_t type_of(std::size_t choice, const std::string& name)
+std::vector<CraftedAttribute> good_attributes()
 {
-  const hid_t usual = name == "bonds"               ? H5T_NATIVE_UINT32
-                      : name.starts_with("recipe_") ? H5T_NATIVE_CHAR
-                      : name == "version"           ? H5T_NATIVE_INT
-                                                    : H5T_NATIVE_DOUBLE;
-  switch (choice) {
-  case 1:
-    return H5Tcopy(H5T_IEEE_F32LE);
-  case 2:
-    return H5Tcopy(H5T_IEEE_F64BE);
-  case 3:
-    return H5Tcopy(H5T_NATIVE_INT64);
-  case 4:
-    return H5Tcopy(H5T_NATIVE_UCHAR);
-  case 5:
-    return H5Tcopy(H5T_NATIVE_UINT32);
-  case 6: {
-    const hid_t text = H5Tcopy(H5T_C_S1);
-    H5Tset_size(text, 1000);
-    return text;
-  }
-  case 7: {
-    const hid_t text = H5Tcopy(H5T_C_S1);
-    H5Tset_size(text, H5T_VARIABLE);
-    return text;
-  }
-  case 8:
-    return H5Tvlen_create(H5T_NATIVE_DOUBLE);
-  case 9: {
-    const hid_t pair = H5Tcreate(H5T_COMPOUND, 16);
-    H5Tinsert(pair, "a", 0, H5T_NATIVE_DOUBLE);
-    H5Tinsert(pair, "b", 8, H5T_NATIVE_DOUBLE);
-    return pair;
-  }
-  case 10: {
-    const hsize_t size[1] = {1000};
-    return H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, size);
-  }
-  case 11:
-    return H5Tcopy(H5T_STD_REF_OBJ);
-  case 12: {
-    const hid_t opaque = H5Tcreate(H5T_OPAQUE, 8);
-    H5Tset_tag(opaque, "opaque");
-    return opaque;
-  }
-  default:
-    return H5Tcopy(usual);
-  }
-}
-constexpr std::size_t n_types = 13;
-
-bool is_number(hid_t type)
-{
-  const H5T_class_t kind = H5Tget_class(type);
-  return kind == H5T_FLOAT || kind == H5T_INTEGER;
-}
-
-hsize_t length(std::size_t choice, hsize_t usual)
-{
-  constexpr hsize_t huge = hsize_t{1} << 61;
-  const std::array<hsize_t, 8> lengths{usual, 0,        1,   usual + 1,
-                                       huge,  huge / 3, 100, 0xffffffffu};
-  return lengths[choice];
-}
-constexpr std::size_t n_lengths = 8;
-
-std::vector<hsize_t> shape(Choices& choose, const Array& array)
-{
-  std::vector<hsize_t> size = array.size;
-  switch (choose.of(6)) {
-  case 1:
-    size.clear();
-    break; // one value, without dimension
-  case 2:
-    size.push_back(1);
-    break;
-  case 3:
-    size.assign(20, 1);
-    break;
-  case 4:
-    size.pop_back();
-    break;
-  default:
-    break;
-  }
-  for (hsize_t& n : size) n = length(choose.of(n_lengths), n);
-  return size;
-}
-
-hid_t layout(std::size_t choice, const std::vector<hsize_t>& size)
-{
-  const hid_t plist = H5Pcreate(H5P_DATASET_CREATE);
-  switch (choice) {
-  case 1:
-    H5Pset_layout(plist, H5D_COMPACT);
-    break;
-  case 2:
-  case 3: {
-    const std::vector<hsize_t> chunk(std::max<std::size_t>(1, size.size()), 2);
-    H5Pset_chunk(plist, static_cast<int>(chunk.size()), chunk.data());
-    if (choice == 3) H5Pset_deflate(plist, 9);
-    break;
-  }
-  case 4:
-    H5Pset_external(plist, "/dev/zero", 0, H5F_UNLIMITED);
-    break;
-  case 5: {
-    const double fill = std::numeric_limits<double>::quiet_NaN();
-    H5Pset_fill_value(plist, H5T_NATIVE_DOUBLE, &fill);
-    break;
-  }
-  default:
-    break;
-  }
-  return plist;
-}
-
-/// Values that a good sample does not have.
-double odd(std::size_t choice)
-{
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  const std::array<double, 8> values{
-      0.0,   -1.0, inf,          std::numeric_limits<double>::quiet_NaN(),
-      1e308, 2.0,  4294967295.0, 1e-310};
-  return values[choice];
-}
-
-void add_array(hid_t file, Choices& choose, const Array& array)
-{
-  const std::size_t link = choose.of(8);
-  const std::string target = std::string("target of ") + array.name;
-  const char* name = array.name;
-  if (link == 1) return; // missing
-  if (link == 2) H5Lcreate_soft("/nowhere", file, array.name, H5P_DEFAULT, H5P_DEFAULT);
-  if (link == 3) H5Lcreate_soft(array.name, file, array.name, H5P_DEFAULT, H5P_DEFAULT);
-  if (link == 4)
-    H5Lcreate_external("/dev/zero", "/x", file, array.name, H5P_DEFAULT, H5P_DEFAULT);
-  if (link == 5) {
-    H5Lcreate_soft(target.c_str(), file, array.name, H5P_DEFAULT, H5P_DEFAULT);
-    name = target.c_str();
-  }
-  if (link == 6) {
-    H5Gclose(H5Gcreate2(file, array.name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-    return;
-  }
-
-  const std::vector<hsize_t> size = shape(choose, array);
-  const hid_t type = type_of(choose.of(n_types), array.name);
-  const hid_t plist = layout(choose.of(6), size);
-  const hid_t space =
-      size.empty() ? H5Screate(H5S_SCALAR)
-                   : H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr);
-  const hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, plist, H5P_DEFAULT);
-  std::vector<double> values = array.values;
-  if (choose.of(4) == 1) {
-    const std::size_t which = choose.of(values.size());
-    values[which] = odd(choose.of(8));
-  }
-  double n_values = 1.0; // as a double: the product of the lengths may not fit an integer
-  for (const hsize_t n : size) n_values *= static_cast<double>(n);
-  if (set >= 0 && is_number(type) && n_values <= static_cast<double>(values.size()))
-    H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
-  if (set >= 0) H5Dclose(set);
-  if (space >= 0) H5Sclose(space);
-  if (type >= 0) H5Tclose(type);
-  H5Pclose(plist);
-}
-
-void add_attribute(hid_t file, Choices& choose, const char* name, double value)
-{
-  const std::size_t kind = choose.of(4);
-  if (kind == 1) return; // missing
-  std::vector<hsize_t> size;
-  if (kind == 2) size = {length(choose.of(n_lengths), 4) % 2000};
-  if (kind == 3) size = {1000};
-  const hid_t type = type_of(choose.of(n_types), name);
-  const hid_t space =
-      size.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, size.data(), nullptr);
-  const hid_t a = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-  if (choose.of(4) == 1) value = odd(choose.of(8));
-  const std::vector<double> values(2000, value);
-  if (a >= 0 && is_number(type)) H5Awrite(a, H5T_NATIVE_DOUBLE, values.data());
-  if (a >= 0) H5Aclose(a);
-  if (space >= 0) H5Sclose(space);
-  if (type >= 0) H5Tclose(type);
+  std::vector<CraftedAttribute> all{{"version", H5T_NATIVE_INT, 1.0}};
+  for (const char* name : {"bond_limit", "porosity", "whole_porosity", "overlap"})
+    all.push_back({name, H5T_NATIVE_DOUBLE, 0.1});
+  return all;
 }
 
 /// What a sample ends in, after the data of HDF5.
@@ -256,16 +50,7 @@ std::string seal_of(const std::string& bytes)
 
 void craft_sample(const std::filesystem::path& path, const std::string& bytes)
 {
-  H5dont_atexit();
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  Choices choose(bytes);
-  for (const Array& array : good_arrays()) add_array(file, choose, array);
-  add_attribute(file, choose, "version", 1.0);
-  for (const char* name : {"bond_limit", "porosity", "whole_porosity", "overlap"})
-    add_attribute(file, choose, name, 0.1);
-  H5Fclose(file);
-
+  craft_hdf5(path, good_arrays(), good_attributes(), bytes);
   std::ifstream in(path, std::ios::binary);
   std::string whole((std::istreambuf_iterator<char>(in)), {});
   in.close();

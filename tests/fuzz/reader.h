@@ -26,7 +26,8 @@ struct Reader {
   bool (*accepts)(const std::string& bytes, const std::filesystem::path& file);
 };
 
-extern const Reader case_reader, table_reader, sample_reader, crafted_sample_reader;
+extern const Reader case_reader, table_reader, sample_reader, crafted_sample_reader,
+    checkpoint_reader, crafted_checkpoint_reader;
 
 /// Replace the contents of a file.
 void write_bytes(const std::filesystem::path& file, const std::string& bytes);

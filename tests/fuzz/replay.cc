@@ -1,9 +1,11 @@
 // Feeds every reader its corpus and some thousand mutations of it, the same ones every time.
 //
 //   fuzz_replay CORPUS [MUTATIONS_PER_FILE]
+//   fuzz_replay --checkpoint FILE       write a good one, for a corpus
 //
 // Files good_* must be accepted, all others refused. A mutation may be accepted or refused, but by
 // InputError alone, and a sealed file must not be accepted once a byte of it has changed.
+#include "tests/fuzz/crafted_checkpoint.h"
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/reader.h"
 
@@ -126,14 +128,20 @@ struct Scratch {
 int main(int argc, char** argv)
 {
   if (argc < 2) {
-    std::cerr << "usage: fuzz_replay CORPUS [MUTATIONS_PER_FILE]\n";
+    std::cerr << "usage: fuzz_replay CORPUS [MUTATIONS_PER_FILE]\n"
+                 "       fuzz_replay --checkpoint FILE\n";
     return 1;
+  }
+  if (argv[1] == std::string("--checkpoint") && argc > 2) {
+    write_good_checkpoint(argv[2]);
+    return 0;
   }
   const std::uint64_t n = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 500;
   const Scratch scratch;
   bool is_good = true;
   for (const Reader* reader :
-       {&case_reader, &table_reader, &sample_reader, &crafted_sample_reader}) {
+       {&case_reader, &table_reader, &sample_reader, &crafted_sample_reader,
+        &checkpoint_reader, &crafted_checkpoint_reader}) {
     Replay replay(*reader, argv[1], scratch.path);
     replay.feed_corpus();
     replay.feed_mutations(n);
