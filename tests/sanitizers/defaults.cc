@@ -30,6 +30,7 @@ const char* __lsan_default_suppressions()
          "leak:libopen-rte.so\n"
          "leak:libpmix\n"
          "leak:libevent\n"
+         "leak:libhwloc\n"
          "leak:mca_\n"
          "leak:vasprintf\n";
 }
