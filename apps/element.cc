@@ -71,7 +71,6 @@ int run_element(const JobOptions& options)
   on_first_rank([&] { folder.check(inputs); });
 
   ElementRock rock = obtain_rock(file, c);
-  check_size(file, c, rock);
   const double width =
       c.size_effect.width > 0.0 ? c.size_effect.width : rock.cell.size.mean();
   const dem::PairMaterials materials = resolved_materials(c, width);

@@ -14,6 +14,7 @@ namespace mergel::apps {
 namespace {
 
 constexpr std::size_t most_legs = 12;
+constexpr double skin_share = 0.3; ///< of the smallest grain
 
 std::string key_of_leg(std::size_t k)
 {
@@ -84,6 +85,21 @@ void declare_analysis(CaseFile& file, ElementCase& c)
       "run's are fitted by the critical state line.");
 }
 
+/// Refuse a cell that the strain limit would make too small for its grains.
+void check_size(const CaseFile& file, const ElementCase& c)
+{
+  const dem::Grading& sizes = c.specimen.specimen.sizes;
+  const double range = c.contact.g_a + skin_share * sizes.smallest();
+  const double reach = 0.5 * c.specimen.S * (sizes.largest() + range);
+  const double edge = c.specimen.edges.minCoeff();
+  if (edge * (1.0 - c.strain_limit) < 4.0 * reach) // of find_pairs()
+    file.refuse(
+        "Loading", "strain limit",
+        "the cell, an edge of which is " + dem::shortest(1e3 * edge) +
+            " mm, would become shorter than twice the reach of its largest grains, " +
+            dem::shortest(4e3 * reach) + " mm: lower it, or take a larger cell");
+}
+
 } // namespace
 
 double SizeEffect::factor(double B) const
@@ -114,6 +130,7 @@ void complete(const CaseFile& file, ElementCase& c)
     file.refuse("Specimen", "shape", "an element test leads a `periodic box`");
   c.specimen.specimen.free_rotation = c.free_rotation;
   complete(file, c.specimen, c.contact);
+  check_size(file, c);
   if (c.secant_to <= c.secant_from)
     file.refuse("Analysis", "secant to", "must be beyond `secant from`");
 
@@ -152,22 +169,7 @@ double list_skin(const dem::Particles& p)
 {
   double least = std::numeric_limits<double>::infinity();
   for (const dem::Body& b : p.body) least = std::min(least, 2.0 * b.R / b.S);
-  return 0.3 * least;
-}
-
-void check_size(const CaseFile& file, const ElementCase& c, const ElementRock& rock)
-{
-  const double range = c.contact.g_a + list_skin(rock.particles);
-  double reach = 0.0;
-  for (const dem::Body& b : rock.particles.body)
-    reach = std::max(reach, b.R + 0.5 * range * b.S);
-  const double edge = rock.cell.size.minCoeff();
-  if (edge * (1.0 - c.strain_limit) < 4.0 * reach) // of find_pairs()
-    file.refuse(
-        "Loading", "strain limit",
-        "the cell, an edge of which is " + dem::shortest(1e3 * edge) +
-            " mm, would become shorter than twice the reach of its largest grains, " +
-            dem::shortest(4e3 * reach) + " mm: lower it, or take more grains");
+  return skin_share * least;
 }
 
 dem::PairMaterials resolved_materials(const ElementCase& c, double width)

@@ -64,9 +64,6 @@ ElementRock obtain_rock(const CaseFile& file, const ElementCase& c);
 /// Margin of the lists at S = 1 [m], 0.3 of the smallest grain.
 double list_skin(const dem::Particles& p);
 
-/// Refuse a cell that the strain limit would make too small for its grains.
-void check_size(const CaseFile& file, const ElementCase& c, const ElementRock& rock);
-
 /// The materials of the run: the keys' values at S = 1, with the size effect applied to the
 /// strengths. Upscaling (Eq. 8) is the grains' own: a pair takes u_c and g_a times its S.
 dem::PairMaterials resolved_materials(const ElementCase& c, double width);

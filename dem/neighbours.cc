@@ -11,6 +11,8 @@ namespace {
 
 using Cells = std::array<long, 3>;
 
+constexpr int coarsest_level = 30; ///< below 2^-30 of the largest all share one class
+
 /// Particles of one size class sorted into cubes no smaller than the largest reach among
 /// them.
 struct Level {
@@ -79,11 +81,10 @@ void sort_into_cells(Level& l, const Wrapped& w, const PeriodicCell& cell, const
   const auto most = static_cast<double>(std::max<std::size_t>(l.all.size(), 64));
   // A box that is long one way needs several turns: where it is one cell wide it stays so.
   double edge = 2.0 * l.reach;
-  const auto n_cells = [&] {
-    double n = 1.0;
-    for (int a = 0; a < 3; ++a) n *= std::max(1.0, (high[a] - low[a]) / edge);
-    return n;
-  };
+  Vec3 length = high - low;
+  for (int a = 0; a < 3; ++a)
+    if (cell.size[a] > 0.0) length[a] = cell.size[a];
+  const auto n_cells = [&] { return (length / edge).cwiseMax(1.0).prod(); };
   for (double n = n_cells(); n > most; n = n_cells())
     edge *= std::max(1.01, std::cbrt(n / most));
 
@@ -92,11 +93,10 @@ void sort_into_cells(Level& l, const Wrapped& w, const PeriodicCell& cell, const
   for (int a = 0; a < 3; ++a) {
     const auto ax = static_cast<std::size_t>(a);
     const bool periodic = cell.size[a] > 0.0;
-    const double length = periodic ? cell.size[a] : high[a] - low[a];
     if (periodic) l.origin[a] = 0.0;
-    l.n[ax] = std::max(1L, static_cast<long>(length / edge));
-    l.edge[a] = std::max(edge, length / static_cast<double>(l.n[ax]));
-    if (periodic) l.edge[a] = length / static_cast<double>(l.n[ax]);
+    l.n[ax] = std::max(1L, static_cast<long>(length[a] / edge));
+    l.edge[a] = std::max(edge, length[a] / static_cast<double>(l.n[ax]));
+    if (periodic) l.edge[a] = length[a] / static_cast<double>(l.n[ax]);
     total *= static_cast<std::size_t>(l.n[ax]);
   }
   l.start.assign(total + 1, 0);
@@ -200,7 +200,8 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
     low = low.cwiseMin(w.x[i]);
     high = high.cwiseMax(w.x[i]);
     const double reach = reach_of(p.body[i], range);
-    const auto l = static_cast<std::size_t>(std::max(0, std::ilogb(largest / reach)));
+    const auto l = static_cast<std::size_t>(
+        std::clamp(std::ilogb(largest / reach), 0, coarsest_level));
     if (l >= levels.size()) levels.resize(l + 1);
     levels[l].all.push_back(static_cast<Index>(i));
     levels[l].reach = std::max(levels[l].reach, reach);

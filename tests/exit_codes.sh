@@ -57,7 +57,7 @@ kib=8 ends "sample, the disk is full" 2 'sample\.h5: cannot be written: File too
 ends "pile, a sample with a name too long" 1 'there is no such file' pile "$pile" --set "Specimen/file=$long" --output none
 ends "pile, the run is unstable" 2 '[a-z]' pile "$pile" "${tiny[@]}" --set "Specimen/file=sample/sample.h5" \
   --set "Pile/velocity=2000 m/s" --output fast
-kib=44 ends "pile, the disk is full" 2 'particles_0000\.vtp: cannot be written: File too large' pile "$pile" "${tiny[@]}" \
+kib=56 ends "pile, the disk is full" 2 '(particles|bonds)_0000\.vtp: cannot be written: File too large' pile "$pile" "${tiny[@]}" \
   --set "Specimen/file=sample/sample.h5" --output full_pile
 ends "pile, done" 0 '' pile "$pile" "${tiny[@]}" --set "Specimen/file=sample/sample.h5" --set "Pile/cone angle=150 degree" \
   --set "Pile/final depth=0.02 mm" --output pile

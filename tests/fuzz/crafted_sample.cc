@@ -24,13 +24,16 @@ std::vector<CraftedArray> good_arrays()
       {"bonds", H5T_NATIVE_UINT32, {2, 2}, {0.0, 1.0, 1.0, 2.0}},
       {"recipe_keys", text, {2}, {'a', '\n'}},
       {"recipe_values", text, {2}, {'b', '\n'}},
+      {"bond_shifts", H5T_NATIVE_INT16, {2, 3}, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}},
+      {"cell", number, {3}, {0.0, 0.0, 0.0}},
   };
 }
 
 std::vector<CraftedAttribute> good_attributes()
 {
-  std::vector<CraftedAttribute> all{{"version", H5T_NATIVE_INT, 1.0}};
-  for (const char* name : {"bond_limit", "porosity", "whole_porosity", "overlap"})
+  std::vector<CraftedAttribute> all{{"version", H5T_NATIVE_INT, 2.0}};
+  for (const char* name :
+       {"bond_limit", "porosity", "whole_porosity", "overlap", "pressure", "friction"})
     all.push_back({name, H5T_NATIVE_DOUBLE, 0.1});
   return all;
 }

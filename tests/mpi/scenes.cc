@@ -152,22 +152,27 @@ struct Options {
   int stop = n_steps;
 };
 
-void save(const apps::WorkingRock& w, const std::string& file)
+void save(const apps::WorkingRock& w, const Servo& servo, const std::string& file)
 {
   State state(w.rock.domain.rank());
   put(state, w.rock);
   state.add_common<double>("steps", {w.dt, w.dt_before});
+  const Vec3 &I = servo.integral, &M = servo.stiffness;
+  state.add_common<double>("servo", {I.x(), I.y(), I.z(), M.x(), M.y(), M.z()}, 6);
   write_checkpoint(file, {"test", "scene", "", "", w.n_steps, 0.0}, std::move(state),
                    w.rock.domain);
 }
 
-void restore(apps::WorkingRock& w, const std::string& file)
+void restore(apps::WorkingRock& w, Servo& servo, const std::string& file)
 {
   const Checkpoint c = read_checkpoint(file);
   take(c.state, w.rock);
   w.n_steps = c.label.step;
   w.dt = c.state.get<double>("steps")[0];
   w.dt_before = c.state.get<double>("steps")[1];
+  const auto& s = c.state.get_rows<double>("servo", 1, 6);
+  servo.integral = {s[0], s[1], s[2]};
+  servo.stiffness = {s[3], s[4], s[5]};
 }
 
 void run(const std::string& name, const Options& o)
@@ -176,13 +181,13 @@ void run(const std::string& name, const Options& o)
   apps::WorkingRock w = make(name);
   weaken(w.rock, 1e8);
   const auto n_before = w.n_steps;
-  if (!o.restart.empty()) restore(w, o.restart);
+  Servo servo;
+  if (!o.restart.empty()) restore(w, servo, o.restart);
   share_out(w.rock, MPI_COMM_WORLD);
   if (o.restart.empty())
     add_forces(w.rock, 0.0);
   else
     rebuild_lists(w.rock);
-  Servo servo;
   for (int step = static_cast<int>(w.n_steps - n_before) + 1; step <= o.stop; ++step) {
     if (rebuilds && step % 7 == 0) w.rock.list.invalidate();
     if (rebalances && step % 50 == 0)
@@ -193,7 +198,7 @@ void run(const std::string& name, const Options& o)
   }
   std::fflush(stdout);
   if (!o.checkpoint.empty()) {
-    save(w, o.checkpoint);
+    save(w, servo, o.checkpoint);
     return;
   }
   const std::size_t broken = w.rock.domain.sum(w.rock.losses.broken);
