@@ -77,10 +77,15 @@ void sort_into_cells(Level& l, const Wrapped& w, const PeriodicCell& cell, const
 {
   // No more cells than particles of the class, so that memory stays linear.
   const auto most = static_cast<double>(std::max<std::size_t>(l.all.size(), 64));
+  // A box that is long one way needs several turns: where it is one cell wide it stays so.
   double edge = 2.0 * l.reach;
-  double volume = 1.0;
-  for (int a = 0; a < 3; ++a) volume *= std::max(1.0, (high[a] - low[a]) / edge);
-  if (volume > most) edge *= std::cbrt(volume / most);
+  const auto n_cells = [&] {
+    double n = 1.0;
+    for (int a = 0; a < 3; ++a) n *= std::max(1.0, (high[a] - low[a]) / edge);
+    return n;
+  };
+  for (double n = n_cells(); n > most; n = n_cells())
+    edge *= std::max(1.01, std::cbrt(n / most));
 
   l.origin = low;
   std::size_t total = 1;
