@@ -205,7 +205,7 @@ TEST_CASE("arrays that do not fit each other are refused by name", "[unit][dem]"
              }),
              Contains("grain_bonds has 2 rows, not 6"));
   CHECK_THAT(refusal_with([](State& s) {
-               s.add<std::uint64_t>("bodies", {1, 1, 1, 0});
+               s.add<std::uint64_t>("bodies", {1, 1, 1, 2});
              }),
              Contains("counts other walls or piles"));
   CHECK_THAT(
