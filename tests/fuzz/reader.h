@@ -5,6 +5,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace mergel::fuzz {
 
@@ -19,8 +20,8 @@ inline void promise(bool holds, const std::string& what)
 }
 
 struct Reader {
-  const char* name; ///< and folder of its corpus
-  bool is_sealed;   ///< the file ends in the sum of its bytes: no changed file is accepted
+  std::string_view name; ///< and folder of its corpus
+  bool is_sealed; ///< the file ends in the sum of its bytes: no changed file is accepted
   /// Whether the bytes are accepted; false when InputError refuses them. `file` may be
   /// written. Whatever else is thrown goes on.
   bool (*accepts)(const std::string& bytes, const std::filesystem::path& file);
