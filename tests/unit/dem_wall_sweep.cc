@@ -179,8 +179,8 @@ TEST_CASE("Force, moment and power at the nodes balance those on the particle",
     }
     worst_force = std::max(worst_force, force.norm() / on_particle.norm());
     worst_moment = std::max(worst_moment, moment.norm() / (on_particle.norm() * R));
-    worst_power =
-        std::max(worst_power, std::abs(power - sum_pushes(wall).power.value()) / on_particle.norm());
+    worst_power = std::max(worst_power, std::abs(power - sum_pushes(wall).power.value()) /
+                                            on_particle.norm());
   }
   CAPTURE(degrees, n_shared);
   CHECK(n_touched > 500);
