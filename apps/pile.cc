@@ -480,15 +480,26 @@ OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& 
     return std::filesystem::equivalent(options.output, folder, error);
   };
   if (restart && is_output(restart->folder)) return {options.output, Earlier::go_on};
-  // A run that was ended before its first checkpoint begins again.
-  const bool begins_again = !restart && is_output(options.restart);
-  if (begins_again)
-    require(!std::filesystem::exists(options.output / "summary.json"),
-            "--restart " + options.restart.string() +
-                ": holds a finished run without a checkpoint. Choose another folder with "
-                "--output, or replace that run with --overwrite and without --restart.");
-  return {options.output,
-          options.overwrite || begins_again ? Earlier::overwrite : Earlier::keep};
+  if (restart)
+    return {options.output, options.overwrite ? Earlier::overwrite : Earlier::keep};
+  return folder_to_begin_in(options);
+}
+
+/// Bring the checkpoint into the folder where the run goes on, if that is another: a run that
+/// ends before its own first one can be restarted from there too. Returns where it is.
+std::filesystem::path bring_along(const std::filesystem::path& checkpoint,
+                                  const std::filesystem::path& folder)
+{
+  const std::filesystem::path there = folder / checkpoint.filename();
+  std::error_code error;
+  if (std::filesystem::equivalent(checkpoint, there, error)) return checkpoint;
+  on_first_rank([&] {
+    dem::replace_file(there, [&](const std::filesystem::path& file) {
+      std::filesystem::copy_file(checkpoint, file,
+                                 std::filesystem::copy_options::overwrite_existing);
+    });
+  });
+  return there;
 }
 
 /// Files that the run reads after the folder was looked at.
@@ -566,6 +577,7 @@ int run_pile(const JobOptions& options)
       file.write_resolved(folder.path() / "resolved.prm");
       output.emplace(folder.path(), c, restart->folder, state);
     });
+    restart->file = bring_along(restart->file, folder.path());
   } else {
     const dem::Sample sample = obtain_sample(file, c.rock);
     std::cout << far_field.summary() << '\n' << report(c.rock, sample) << '\n';

@@ -102,11 +102,33 @@ std::vector<CaseFile::Change> check_case(const CaseFile& file, const Restart& re
   return changes;
 }
 
+namespace {
+
+/// Refuse to begin again where a run ended, or could go on: its results would be lost.
+void require_unfinished(const fs::path& folder)
+{
+  std::error_code error;
+  std::string found;
+  if (fs::exists(folder / "summary.json", error))
+    found = "a finished run";
+  else
+    for (const auto& entry : fs::directory_iterator(folder, error))
+      if (dem::is_checkpoint_name(entry.path().filename()))
+        found = "a run with checkpoints";
+  require(found.empty(),
+          "--restart " + folder.string() + ": holds " + found +
+              ", and this one would begin again. Choose another folder with --output, or "
+              "replace that run with --overwrite and without --restart.");
+}
+
+} // namespace
+
 OutputFolder folder_to_begin_in(const JobOptions& options)
 {
   std::error_code error;
   const bool begins_again =
       !options.restart.empty() && fs::equivalent(options.output, options.restart, error);
+  if (begins_again) require_unfinished(options.output);
   return {options.output,
           options.overwrite || begins_again ? Earlier::overwrite : Earlier::keep};
 }

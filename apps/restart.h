@@ -39,8 +39,9 @@ void read_case(CaseFile& file, const JobOptions& options,
 std::vector<CaseFile::Change> check_case(const CaseFile& file, const Restart& restart,
                                          const std::vector<std::string>& free);
 
-/// For a job that is done so soon that it begins again: the folder of an earlier run in
-/// which it does so may be used.
+/// For a run that begins again: the folder of an earlier run may be used that was ended before
+/// its first checkpoint.
+/// @throws InputError when the earlier run was finished or has a checkpoint
 OutputFolder folder_to_begin_in(const JobOptions& options);
 
 /// What the user should know: where the run goes on, what could not be read, what has

@@ -117,6 +117,20 @@ grep -q 'Output/frames was 2, is now 1' log || fail "the change is not told: $(c
 cmp whole/history.csv e/history.csv || fail "the history differs"
 [ "$(ls e/fields | wc -l)" -eq 8 ] || fail "frames: $(ls e/fields)"
 
+# Another folder can be restarted from the start: the checkpoint is brought along.
+name=$(basename "$(find b -name 'checkpoint_*.h5' | sort | tail -1)")
+[ "$(code_of pile --restart b --output f --set "Output/checkpoint every=never" --walltime "0.1 s")" -eq 2 ] ||
+  fail "another folder, ended at once: $(tail -3 log)"
+[ -e "f/$name" ] || [ -n "$(find f -name 'checkpoint_*.h5')" ] || fail "no checkpoint came along: $(ls f)"
+pile --restart f >log || fail "the other folder: $(tail -3 log)"
+same f
+
+# What begins again takes no results away.
+"$mergel" bond "$root/apps/cases/bond_fig4a_tension.prm" --output bond >log || fail "bond: $(cat log)"
+[ "$(code_of "$mergel" bond --restart bond)" -eq 1 ] && grep -q 'holds a finished run' log || fail "a finished bond: $(cat log)"
+[ "$(code_of "$mergel" bond "$root/apps/cases/bond_fig4a_tension.prm" --restart b)" -eq 1 ] && grep -q 'holds a run with checkpoints' log || fail "bond over a pile: $(cat log)"
+[ -e "b/$name" ] || fail "the checkpoint of b is gone"
+
 # A lost history is missed; what is no checkpoint is refused.
 rm -rf e; cp -r b e; rm e/history.csv
 [ "$(code_of pile --restart e)" -eq 1 ] && grep -q 'history.csv: is missing' log || fail "a lost history: $(cat log)"
