@@ -87,7 +87,7 @@ double core_porosity(const Region& region, const Particles& p)
   for (const Body& b : p.body) raster.fill(b);
   std::size_t points = 0, filled = 0;
   raster.visit([&](const Vec3& x, bool is_solid) {
-    if (depth(region, x) < margin) return;
+    if (depth(region, x, margin) < margin) return;
     ++points;
     filled += is_solid;
   });

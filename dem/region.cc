@@ -85,6 +85,26 @@ double apothem(const HalfCylinder& c)
   return c.radius * std::cos(0.5 * chord_angle(c));
 }
 
+namespace {
+
+template <class Prism>
+double bound_of(const Prism& c)
+{
+  const double half = 0.5 * chord_angle(c);
+  return c.radius * (1.0 - 0.5 * half * half) * (1.0 - 1e-12);
+}
+
+} // namespace
+
+double apothem_bound(const Cylinder& c)
+{
+  return bound_of(c);
+}
+double apothem_bound(const HalfCylinder& c)
+{
+  return bound_of(c);
+}
+
 Side side(const Cylinder& c, const Vec3& x)
 {
   return side_of(c, x);
@@ -95,17 +115,24 @@ Side side(const HalfCylinder& c, const Vec3& x)
   return side_of(c, x);
 }
 
-double depth(const Region& region, const Vec3& x)
+double depth(const Region& region, const Vec3& x, double reach)
 {
-  constexpr double all = std::numeric_limits<double>::infinity();
-  double least = all;
-  std::visit(
-      [&](const auto& r) {
-        visit_boundaries(r, x, all, [&](double clearance, const Vec3&, Boundary) {
-          least = std::min(least, clearance);
-        });
-      },
-      region);
+  double least = std::numeric_limits<double>::infinity();
+  const auto visit = [&least](double clearance, const Vec3&, Boundary) {
+    least = std::min(least, clearance);
+  };
+  // The side last: it is the dearest, and counts only within what the planes leave.
+  std::visit(Cases{[](const PeriodicBox&) {},
+                   [&](const Cylinder& c) {
+                     visit_ends(c.height, x, visit);
+                     visit_side(c, x, std::min(least, reach), visit);
+                   },
+                   [&](const HalfCylinder& c) {
+                     visit(x.y(), Vec3(Vec3::UnitY()), Boundary::cut);
+                     visit_ends(c.height, x, visit);
+                     visit_side(c, x, std::min(least, reach), visit);
+                   }},
+             region);
   return least;
 }
 

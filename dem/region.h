@@ -60,9 +60,14 @@ void visit_ends(double height, const Vec3& x, Visit&& visit)
 /// Least distance of the side's chords from the axis [m].
 double apothem(const Cylinder& c);
 double apothem(const HalfCylinder& c);
+/// The same from below, without a cosine: cos a >= 1 - a^2/2.
+double apothem_bound(const Cylinder& c);
+double apothem_bound(const HalfCylinder& c);
 template <class Prism, class Visit>
 void visit_side(const Prism& c, const Vec3& x, double reach, Visit&& visit)
 {
+  const double sure = apothem_bound(c) - reach; // most places end here
+  if (sure > 0.0 && x.x() * x.x() + x.y() * x.y() < sure * sure) return;
   const double free = apothem(c) - reach; // nearer to the axis the side is out of reach
   if (free > 0.0 && x.x() * x.x() + x.y() * x.y() < free * free) return;
   const Side s = side(c, x);
@@ -82,8 +87,10 @@ void visit_boundaries(const HalfCylinder& c, const Vec3& x, double reach, Visit&
   visit_ends(c.height, x, visit);
 }
 
-/// Distance to the nearest boundary, inside positive; infinite in a periodic box [m].
-double depth(const Region& region, const Vec3& x);
+/// Distance to the nearest boundary, inside positive; infinite in a periodic box [m]. A side
+/// further than `reach` may be left out.
+double depth(const Region& region, const Vec3& x,
+             double reach = std::numeric_limits<double>::infinity());
 
 double volume(const Region& region);        ///< [m^3]
 double least_width(const Region& region);   ///< a sphere of this diameter just fits [m]
