@@ -7,6 +7,7 @@
 #include "dem/distribute.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"
+#include "dem/io/seal.h"
 
 #include <sys/resource.h>
 
@@ -281,13 +282,6 @@ const char* name_of(Workload w)
   return w == Workload::bonded_block ? "W1" : "W2";
 }
 
-std::string hexadecimal(std::uint64_t value)
-{
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
-  return text;
-}
-
 void print_figure(const Figure& f)
 {
   char text[32];
@@ -304,8 +298,8 @@ void print(const WorkloadSpec& spec, const Figures& f)
             << f.n_steps << " steps, seed " << spec.seed << ", " << f.n_ranks
             << (f.n_ranks == 1 ? " rank\n" : " ranks\n");
   for (const Figure& figure : figures(spec, f)) print_figure(figure);
-  std::cout << "  checksum of x, v, omega                      " << hexadecimal(f.checksum)
-            << std::endl;
+  std::cout << "  checksum of x, v, omega                      "
+            << dem::hexadecimal(f.checksum) << std::endl;
 }
 
 /// A line of the CSV file and the header over it.
@@ -328,7 +322,7 @@ Line csv_line(const WorkloadSpec& spec, const Figures& f, double triad)
     text << ',' << dem::shortest(figure.value);
   }
   header << ",triad [GB/s],checksum";
-  text << ',' << dem::shortest(1e-9 * triad) << ',' << hexadecimal(f.checksum);
+  text << ',' << dem::shortest(1e-9 * triad) << ',' << dem::hexadecimal(f.checksum);
   return {header.str(), text.str()};
 }
 

@@ -1,5 +1,7 @@
 #include "dem/distribute.h"
 
+#include "dem/bond_record.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -9,38 +11,16 @@ namespace mergel::dem {
 
 namespace {
 
-/// A bond and the contact beside it.
 struct BondRecord {
   Pair pair;
-  std::array<double, 13> history; ///< gap_0, u_p, V, M, T, intact, f_s
+  BondHistory history;
 };
-
-BondRecord record_of(const Bonds& bonds, std::size_t b)
-{
-  const BondBlock& k = bonds.blocks[b / n_lanes];
-  const auto l = static_cast<int>(b % n_lanes);
-  return {bonds.pairs[b],
-          {k.gap_0[l], k.u_p[l], k.V.x[l], k.V.y[l], k.V.z[l], k.M.x[l], k.M.y[l], k.M.z[l],
-           k.T[l], k.intact[l], k.f_s.x[l], k.f_s.y[l], k.f_s.z[l]}};
-}
 
 Bonds bonds_of(const std::vector<BondRecord>& records)
 {
   Bonds bonds;
-  bonds.blocks.assign((records.size() + n_lanes - 1) / n_lanes, BondBlock{});
-  for (std::size_t b = 0; b < records.size(); ++b) {
-    bonds.pairs.push_back(records[b].pair);
-    BondBlock& k = bonds.blocks[b / n_lanes];
-    const auto l = static_cast<int>(b % n_lanes);
-    const auto& h = records[b].history;
-    k.gap_0[l] = h[0];
-    k.u_p[l] = h[1];
-    set_lane(k.V, l, {h[2], h[3], h[4]});
-    set_lane(k.M, l, {h[5], h[6], h[7]});
-    k.T[l] = h[8];
-    k.intact[l] = h[9];
-    set_lane(k.f_s, l, {h[10], h[11], h[12]});
-  }
+  bonds.pairs.reserve(records.size());
+  for (const BondRecord& r : records) append(bonds, r.pair, r.history);
   return bonds;
 }
 
@@ -52,7 +32,8 @@ struct ContactRecord {
 std::vector<BondRecord> bond_records(const Bonds& bonds)
 {
   std::vector<BondRecord> records;
-  for (std::size_t b = 0; b < bonds.size(); ++b) records.push_back(record_of(bonds, b));
+  for (std::size_t b = 0; b < bonds.size(); ++b)
+    records.push_back({bonds.pairs[b], history_of(bonds, b)});
   return records;
 }
 

@@ -1,5 +1,7 @@
 #include "dem/io/rock_state.h"
 
+#include "dem/bond_record.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -138,7 +140,7 @@ std::vector<Pair> take_pairs(const State& state, const std::string& name, std::s
   return pairs;
 }
 
-constexpr std::size_t bond_columns = 13;
+constexpr std::size_t bond_columns = std::tuple_size_v<BondHistory>;
 
 void put_bonds(State& state, const Particles& p, const Bonds& bonds)
 {
@@ -147,11 +149,8 @@ void put_bonds(State& state, const Particles& p, const Bonds& bonds)
   for (std::size_t b = 0; b < bonds.size(); ++b) {
     if (!p.owns(bonds.pairs[b].i)) continue;
     pairs.append(bonds.pairs[b]);
-    const BondBlock& k = bonds.blocks[b / n_lanes];
-    const auto l = static_cast<int>(b % n_lanes);
-    history.insert(history.end(),
-                   {k.gap_0[l], k.u_p[l], k.V.x[l], k.V.y[l], k.V.z[l], k.M.x[l], k.M.y[l],
-                    k.M.z[l], k.T[l], k.intact[l], k.f_s.x[l], k.f_s.y[l], k.f_s.z[l]});
+    const BondHistory h = history_of(bonds, b);
+    history.insert(history.end(), h.begin(), h.end());
   }
   pairs.put(state, "bond");
   state.add("bond_histories", std::move(history), bond_columns);
@@ -163,20 +162,11 @@ Bonds take_bonds(const State& state, std::size_t n)
   const auto& history =
       state.get_rows<double>("bond_histories", pairs.size(), bond_columns);
   Bonds bonds;
-  bonds.blocks.assign((pairs.size() + n_lanes - 1) / n_lanes, BondBlock{});
   for (const std::size_t from :
        ascending("bond_pairs", pairs.size(), [&](std::size_t k) { return pairs[k]; })) {
-    const double* h = &history[from * bond_columns];
-    BondBlock& k = bonds.blocks[bonds.size() / n_lanes];
-    const auto l = static_cast<int>(bonds.size() % n_lanes);
-    k.gap_0[l] = h[0];
-    k.u_p[l] = h[1];
-    set_lane(k.V, l, {h[2], h[3], h[4]});
-    set_lane(k.M, l, {h[5], h[6], h[7]});
-    k.T[l] = h[8];
-    k.intact[l] = h[9];
-    set_lane(k.f_s, l, {h[10], h[11], h[12]});
-    bonds.pairs.push_back(pairs[from]);
+    BondHistory h;
+    std::copy_n(&history[from * bond_columns], bond_columns, h.begin());
+    append(bonds, pairs[from], h);
   }
   return bonds;
 }
