@@ -176,14 +176,7 @@ dem::PairMaterials resolved_materials(const ElementCase& c, double width)
 {
   dem::PairMaterials m{c.bond.chosen(), c.contact};
   const double factor = c.size_effect.factor(width);
-  if (auto* b = std::get_if<dem::DamageBond>(&m.bond)) {
-    b->sigma_t *= factor;
-    b->sigma_c *= factor;
-    b->C *= factor;
-  } else if (auto* b = std::get_if<dem::ParallelBond>(&m.bond)) {
-    b->sigma_c *= factor;
-    b->tau_c *= factor;
-  }
+  std::visit([&](auto& bond) { bond = with_strengths_times(factor, bond); }, m.bond);
   return m;
 }
 
@@ -229,7 +222,7 @@ std::string report(const ElementCase& c, const ElementRock& rock,
         << " mm (Eq. 18)";
   } else
     out << ", no size effect";
-  return out.str();
+  return out.str() + apps::report(c.specimen.strengths, rock.particles);
 }
 
 } // namespace mergel::apps

@@ -218,6 +218,18 @@ sample_set "a box too dense for its shells" '--set Specimen/porosity = 0\.4: mus
 sample_set "a box too loose for its pressure" \
   '--set Specimen/porosity = 0\.7: cannot be met together with .*lock between 0\.[0-9]+ .*' \
   "Specimen/porosity=0.7" "Specimen/upscaling ratio=14" "Specimen/target pressure=50 kPa"
+variability="Strength variability"
+sample_set "unknown distribution" \
+  "--set $variability/distribution = Weibul: must be one of .*Did you mean \"Weibull\"\?" \
+  "$variability/distribution=Weibul"
+sample_set "a distribution without its width" ".*$variability/coefficient of variation.*" \
+  "$variability/distribution=log-normal"
+sample_set "strengths that vary too much" \
+  "--set $variability/coefficient of variation = 1\.5: must .*" \
+  "$variability/distribution=log-normal" "$variability/coefficient of variation=1.5"
+refuse_set "a width without a distribution" \
+  "--set $variability/coefficient of variation = 0\.3: is a key of .distribution. = .*" \
+  "$variability/coefficient of variation=0.3"
 edited case.prm '/set symmetry/d'
 refuse "a pile in a whole cylinder" '--set Specimen/shape = cylinder: .*half cylinder.*' \
   pile case.prm --output out --set "Specimen/shape=cylinder"

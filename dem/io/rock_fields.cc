@@ -56,9 +56,11 @@ void write_particles(const std::filesystem::path& file, const Rock& rock,
     put(force, k, p.load[k].f);
     put(displacement, k, b.x - x_0[k]);
   }
-  write_points(file, x,
-               {radius, velocity, scalar("damage", particle_damage(rock)), force, S, id,
-                displacement});
+  std::vector<Field> fields{radius,      velocity, scalar("damage", particle_damage(rock)),
+                            force,       S,        id,
+                            displacement};
+  if (!p.strength.empty()) fields.push_back(scalar("strength", p.strength));
+  write_points(file, x, fields);
 }
 
 void write_bonds(const std::filesystem::path& file, const Rock& rock)

@@ -7,8 +7,8 @@
 namespace mergel::dem {
 
 /// Points with radius [m], velocity [m/s], damage (mean over the bonds that the particle
-/// was given; 0 without) [-], force (resultant of contacts and bonds, without gravity) [N], S [-], id and displacement from x_0
-/// [m].
+/// was given; 0 without) [-], force (resultant of contacts and bonds, without gravity) [N], S
+/// [-], id, displacement from x_0 [m] and, where they vary, the factor of bond strengths [-].
 void write_particles(const std::filesystem::path& file, const Rock& rock,
                      const std::vector<Vec3>& x_0);
 
