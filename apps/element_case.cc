@@ -14,7 +14,6 @@ namespace mergel::apps {
 namespace {
 
 constexpr std::size_t most_legs = 12;
-constexpr double skin_share = 0.3; ///< of the smallest grain
 
 std::string key_of_leg(std::size_t k)
 {
@@ -89,15 +88,15 @@ void declare_analysis(CaseFile& file, ElementCase& c)
 void check_size(const CaseFile& file, const ElementCase& c)
 {
   const dem::Grading& sizes = c.specimen.specimen.sizes;
-  const double range = c.contact.g_a + skin_share * sizes.smallest();
-  const double reach = 0.5 * c.specimen.S * (sizes.largest() + range);
+  const double range = c.contact.g_a + dem::usual_skin * sizes.smallest();
+  const double least = dem::least_edge(sizes.largest(), range, c.specimen.S);
   const double edge = c.specimen.edges.minCoeff();
-  if (edge * (1.0 - c.strain_limit) < 4.0 * reach) // of find_pairs()
+  if (edge * (1.0 - c.strain_limit) < least)
     file.refuse(
         "Loading", "strain limit",
         "the cell, an edge of which is " + dem::shortest(1e3 * edge) +
             " mm, would become shorter than twice the reach of its largest grains, " +
-            dem::shortest(4e3 * reach) + " mm: lower it, or take a larger cell");
+            dem::shortest(1e3 * least) + " mm: lower it, or take a larger cell");
 }
 
 } // namespace
@@ -169,7 +168,7 @@ double list_skin(const dem::Particles& p)
 {
   double least = std::numeric_limits<double>::infinity();
   for (const dem::Body& b : p.body) least = std::min(least, 2.0 * b.R / b.S);
-  return skin_share * least;
+  return dem::usual_skin * least;
 }
 
 dem::PairMaterials resolved_materials(const ElementCase& c, double width)
@@ -183,28 +182,22 @@ dem::PairMaterials resolved_materials(const ElementCase& c, double width)
 std::string report(const ElementCase& c, const ElementRock& rock,
                    const dem::PairMaterials& materials)
 {
-  double S_min = rock.particles.body[0].S, S_max = S_min, d_min = 1e300, d_max = 0.0;
-  for (const dem::Body& b : rock.particles.body) {
-    S_min = std::min(S_min, b.S);
-    S_max = std::max(S_max, b.S);
-    d_min = std::min(d_min, 2.0 * b.R);
-    d_max = std::max(d_max, 2.0 * b.R);
-  }
+  const dem::GrainRange range = dem::describe_grains(rock.particles);
   std::ostringstream out;
   out.precision(4);
   const dem::Vec3 mm = 1e3 * rock.cell.size;
   const auto n = static_cast<double>(rock.particles.size());
-  out << "rock: " << n << " grains of " << 1e3 * d_min << " to " << 1e3 * d_max
+  out << "rock: " << n << " grains of " << 1e3 * range.d_min << " to " << 1e3 * range.d_max
       << " mm in a periodic cell of " << mm.x() << " x " << mm.y() << " x " << mm.z()
       << " mm, Z = 2 N_bonds/N = " << 2.0 * static_cast<double>(rock.bonded.size()) / n
       << '\n';
   const auto scaled = [&](const char* name, double at_1) {
-    out << ", " << name << ' ' << 1e3 * at_1 * S_min;
-    if (S_max > S_min) out << " to " << 1e3 * at_1 * S_max;
+    out << ", " << name << ' ' << 1e3 * at_1 * range.S_min;
+    if (range.S_max > range.S_min) out << " to " << 1e3 * at_1 * range.S_max;
     out << " mm";
   };
-  out << "resolved: S " << S_min;
-  if (S_max > S_min) out << " to " << S_max;
+  out << "resolved: S " << range.S_min;
+  if (range.S_max > range.S_min) out << " to " << range.S_max;
   if (const auto* b = std::get_if<dem::DamageBond>(&materials.bond)) {
     scaled("u_c", b->u_c);
     scaled("g_a", materials.contact.g_a);

@@ -169,7 +169,10 @@ void declare_strengths(CaseFile& file, dem::StrengthVariability& v)
 
 std::string in_mm(double x)
 {
-  return dem::shortest(1e3 * x) + " mm";
+  std::ostringstream out;
+  out.precision(4);
+  out << 1e3 * x << " mm";
+  return out.str();
 }
 
 dem::SizeCurve curve_of(const CaseFile& file, const SpecimenKeys& k)
@@ -257,10 +260,12 @@ void complete(const CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& 
   s.region = region_of(k);
 
   const double largest = s.sizes.largest() * std::max(s.scale.S_inner, s.scale.S_outer);
-  if (largest >= 0.5 * dem::least_width(s.region))
+  if (dem::least_width(s.region) <= dem::width_needed(s))
     file.refuse("Specimen", ratio_key(k),
                 "the largest grain, " + in_mm(largest) +
-                    ", does not fit the region: lower the ratio or enlarge the region");
+                    ", does not fit the region, which must be wider than " +
+                    in_mm(dem::width_needed(s)) +
+                    ": lower the ratio or enlarge the region");
   if (dem::most_grains(s) > dem::grains_limit)
     file.refuse(
         "Specimen", finest_key(k),

@@ -2,6 +2,7 @@
 
 #include "dem/growth.h"
 #include "dem/morton.h"
+#include "dem/neighbours.h"
 #include "dem/porosity.h"
 #include "dem/random.h"
 #include "dem/settle.h"
@@ -63,8 +64,18 @@ void SpecimenSpec::check() const
          << ". Raise the porosity or lower the activation gap";
     throw InputError(text.str());
   }
-  const double largest = sizes.largest() * std::max(scale.S_inner, scale.S_outer);
-  require(largest < 0.5 * least_width(region), "the largest grain does not fit the region");
+  require(least_width(region) > width_needed(*this),
+          "the largest grain does not fit the region");
+}
+
+double width_needed(const SpecimenSpec& s)
+{
+  const double S = std::max(s.scale.S_inner, s.scale.S_outer);
+  if (!std::holds_alternative<PeriodicBox>(s.region)) return 2.0 * S * s.sizes.largest();
+  const double margin =
+      usual_skin + (s.compaction == Compaction::unjammed ? 0.0 : growth_reserve);
+  const double range = std::max(s.contact.g_a + margin * s.sizes.smallest(), s.g_b);
+  return least_edge(s.sizes.largest(), range, S);
 }
 
 double most_grains(const SpecimenSpec& s)
@@ -130,7 +141,7 @@ Particles draw_grains(const SpecimenSpec& s, double target)
 double grow_cloud(const SpecimenSpec& s, Particles& p, const Sweeps& sweeps,
                   const std::function<void(double)>& progress)
 {
-  Growth growth(p, s.region, s.contact.g_a, 0.3 * s.sizes.smallest());
+  Growth growth(p, s.region, s.contact.g_a, usual_skin * s.sizes.smallest());
   return grow(growth, sweeps, progress);
 }
 

@@ -13,8 +13,6 @@ namespace mergel::dem {
 
 namespace {
 
-constexpr double skin = 0.3;     // of the list, over d00
-constexpr double reserve = 0.1;  // of the list for growing sizes, over d00
 constexpr double safety = 0.7;   // of the time step
 constexpr double at_rest = 1e-3; // unbalanced-force ratio
 
@@ -35,7 +33,7 @@ Rock make_rock(const SpecimenSpec& s, const Packing& packing, double friction)
   rock.material.contact.mu = friction;
   rock.motion.free_rotation = s.free_rotation;
   const double d00 = s.sizes.smallest();
-  rock.list = VerletList(s.contact.g_a + reserve * d00, skin * d00);
+  rock.list = VerletList(s.contact.g_a + growth_reserve * d00, usual_skin * d00);
   for (const Face& face : solid_faces(s.region)) {
     PlaneWall wall;
     wall.plane.point = face.point;
@@ -68,8 +66,8 @@ public:
   Settling(const SpecimenSpec& s, const Packing& packing, double friction, double share,
            MPI_Comm comm)
       : spec_(s), full_(packing.particles.body), rock_(make_rock(s, packing, friction)),
-        volume_(volume(s.region)),
-        growth_allowed_(reserve * s.sizes.smallest() / (s.sizes.largest() + s.contact.g_a))
+        volume_(volume(s.region)), growth_allowed_(growth_reserve * s.sizes.smallest() /
+                                                   (s.sizes.largest() + s.contact.g_a))
   {
     resize(share);
     if (comm != MPI_COMM_NULL) share_out(rock_, comm);

@@ -211,6 +211,9 @@ refuse "graded without an axis" \
   --set "Specimen/outer upscaling=3" --set "Specimen/inner radius=1 mm" --set "Specimen/outer radius=2 mm"
 sample_set "a box smaller than its grains" '--set Specimen/upscaling ratio = 80: the largest grain, .*' \
   "Specimen/upscaling ratio=80"
+sample_set "a box in which a grain meets its own image" \
+  '--set Specimen/upscaling ratio = 10: the largest grain, 1\.337 mm, .*wider than .*' \
+  "Specimen/upscaling ratio=10" "Specimen/edge z=2.9 mm"
 sample_set "a pressure of nothing" '--set Specimen/target pressure = 0 Pa: must satisfy .*> 0.*' \
   "Specimen/target pressure=0 Pa"
 sample_set "a box too dense for its shells" '--set Specimen/porosity = 0\.4: must be at least 0\.[0-9]+ .*' \

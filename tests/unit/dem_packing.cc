@@ -172,4 +172,15 @@ TEST_CASE("A specimen that makes no sense is refused", "[unit][dem]")
   refused([](SpecimenSpec& s) { s.porosity = 1.0; });
   refused([](SpecimenSpec& s) { s.porosity = std::nan(""); });
   refused([](SpecimenSpec& s) { s.scale.S_outer = 20.0; }); // grains as large as the region
+  // Twice the largest grain, 2 x 0.2674 mm, and the gaps that are looked for, 0.0594 mm.
+  const auto box = [](double edge) {
+    return [edge](SpecimenSpec& s) {
+      s.region = PeriodicBox{Vec3::Constant(edge)};
+      s.scale = {2.0, 2.0, 0.0, 0.0};
+    };
+  };
+  refused(box(0.65e-3));
+  SpecimenSpec fits = small_specimen();
+  box(0.66e-3)(fits);
+  CHECK_NOTHROW(fits.check());
 }
