@@ -237,3 +237,43 @@ TEST_CASE("A porosity that a pressure cannot hold is refused with the range that
   s.pressure = 20e3;
   CHECK_THROWS_WITH(made(s), Contains("these grains lock between 0.6"));
 }
+
+TEST_CASE("Grains without friction lock at one porosity, which is named and can be had",
+          "[verification][dem]")
+{
+  SpecimenSpec s = rock(200.0, 0.6);
+  s.contact.mu = 0.0;
+  s.compaction = Compaction::confined;
+  s.pressure = 200e3;
+  std::string said;
+  try {
+    made(s);
+  } catch (const mergel::InputError& error) {
+    said = error.what();
+  }
+  const std::string before = "these grains lock at ";
+  REQUIRE_THAT(said, Contains(before));
+  const double porosity = std::stod(said.substr(said.find(before) + before.size()));
+  // A box that holds as many grains at that porosity.
+  SpecimenSpec again = rock(200.0, porosity);
+  again.contact.mu = 0.0;
+  again.compaction = Compaction::confined;
+  again.pressure = 200e3;
+  CHECK(made(again).porosity == Approx(porosity).margin(porosity_tolerance));
+}
+
+TEST_CASE("The least porosity that a refusal names can be packed without a pressure",
+          "[verification][dem]")
+{
+  std::string said;
+  try {
+    made(rock(600.0, 0.47));
+  } catch (const mergel::InputError& error) {
+    said = error.what();
+  }
+  const std::string before = "come apart between some ";
+  REQUIRE_THAT(said, Contains(before) && Contains(" and 1;"));
+  const double lowest = std::stod(said.substr(said.find(before) + before.size()));
+  CHECK(lowest > 0.49);
+  CHECK(made(rock(600.0, lowest)).overlap <= 1e-3);
+}
