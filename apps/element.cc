@@ -1,5 +1,6 @@
 /// mergel element: lead a periodic cell of rock along any path of stress and strain.
 #include "apps/element_output.h"
+#include "apps/element_pictures.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
 #include "apps/progress.h"
@@ -24,7 +25,8 @@ std::string words(const ElementRecord& r)
 
 /// Follow one leg to its end and append its records, the state at its start first.
 Outcome follow(ElementRun& run, std::size_t leg, const std::string& name,
-               std::vector<ElementRecord>& records, ElementHistory* history)
+               std::vector<ElementRecord>& records, ElementHistory* history,
+               ElementPictures& pictures)
 {
   run.set_out(leg);
   const auto add = [&](const ElementRecord& r) {
@@ -37,6 +39,7 @@ Outcome follow(ElementRun& run, std::size_t leg, const std::string& name,
     run.step();
     const Outcome outcome = run.outcome();
     if (outcome != Outcome::goes_on || run.record_is_due()) add(run.record());
+    pictures.look(outcome != Outcome::goes_on);
     if (outcome != Outcome::goes_on) {
       progress.done(words(records.back()));
       return outcome;
@@ -84,13 +87,14 @@ int run_element(const JobOptions& options)
   });
 
   ElementRun run(c, std::move(rock), materials);
+  ElementPictures pictures(folder.path(), c, run);
   ElementSummary s;
   s.n_particles = run.state().rock.particles.size();
   Outcome outcome = Outcome::done;
   for (std::size_t leg = 0; leg < c.legs.size() && outcome == Outcome::done; ++leg) {
     std::vector<ElementRecord> records;
-    outcome =
-        follow(run, leg, name_of(c.legs[leg]), records, history ? &*history : nullptr);
+    outcome = follow(run, leg, name_of(c.legs[leg]), records, history ? &*history : nullptr,
+                     pictures);
     s.legs.push_back(analyse(c, c.legs[leg], outcome, records));
     for (const ElementRecord& r : records) {
       s.worst_energy_error = std::max(s.worst_energy_error, std::abs(r.energy_error));

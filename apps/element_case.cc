@@ -121,6 +121,16 @@ void declare(CaseFile& file, ElementCase& c)
   const auto section = file.section("Output");
   file.number("record every", c.record_every, inside(0.0, 0.1),
               "Driven strain from one line of history.csv to the next.");
+  file.choice("pictures", c.pictures,
+              std::vector<std::pair<std::string, ElementCase::Pictures>>{
+                  {"none", ElementCase::Pictures::none},
+                  {"legs", ElementCase::Pictures::legs},
+                  {"strain", ElementCase::Pictures::strain}},
+              "Of grains and bonds, for ParaView: none; at the start and where a leg ends; "
+              "or every so much strain besides.");
+  const auto only = file.only_if("pictures", {"strain"});
+  file.number("picture every", c.picture_every, inside(0.0, 1.0),
+              "Strain of any edge of the cell from one picture to the next.");
 }
 
 void complete(const CaseFile& file, ElementCase& c)

@@ -44,7 +44,11 @@ struct ElementCase {
   std::vector<std::filesystem::path> critical_states;
   std::string critical_text;
 
+  // Output
+  enum class Pictures { none, legs, strain };
   double record_every = 2e-4; ///< strain [-]
+  Pictures pictures = Pictures::legs;
+  double picture_every = 1e-2; ///< strain [-]
 };
 
 void declare(CaseFile& file, ElementCase& c);

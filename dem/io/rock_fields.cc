@@ -37,7 +37,7 @@ std::vector<double> particle_damage(const Rock& rock)
 }
 
 void write_particles(const std::filesystem::path& file, const Rock& rock,
-                     const std::vector<Vec3>& x_0)
+                     const std::vector<Vec3>& x_0, const std::vector<Field>& more)
 {
   const Particles& p = rock.particles;
   const std::size_t n = p.n_owned();
@@ -60,6 +60,7 @@ void write_particles(const std::filesystem::path& file, const Rock& rock,
                             force,       S,        id,
                             displacement};
   if (!p.strength.empty()) fields.push_back(scalar("strength", p.strength));
+  fields.insert(fields.end(), more.begin(), more.end());
   write_points(file, x, fields);
 }
 
