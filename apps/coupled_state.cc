@@ -80,6 +80,7 @@ CoupledRock::CoupledRock(const RockCase& c, const dem::State& state,
 {
   rock.piles = std::move(piles);
   dem::take(state, rock);
+  dem::draw_strengths(c.strengths, rock.particles);
   far_field.restore(take_motion(state, far_field.motion()));
   const auto& numbers = state.get_rows<double>("coupled_numbers", 3);
   dt = numbers[0];

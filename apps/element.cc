@@ -1,5 +1,6 @@
 /// mergel element: lead a periodic cell of rock along any path of stress and strain.
 #include "apps/element_output.h"
+#include "apps/element_pictures.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
 #include "apps/progress.h"
@@ -25,7 +26,8 @@ std::string words(const ElementRecord& r)
 
 /// Follow one leg to its end and append its records, the state at its start first.
 Outcome follow(ElementRun& run, std::size_t leg, const std::string& name,
-               std::vector<ElementRecord>& records, ElementHistory* history)
+               std::vector<ElementRecord>& records, ElementHistory* history,
+               ElementPictures& pictures)
 {
   run.set_out(leg);
   const auto add = [&](const ElementRecord& r) {
@@ -40,6 +42,7 @@ Outcome follow(ElementRun& run, std::size_t leg, const std::string& name,
     const Outcome outcome = run.outcome();
     const bool begins = approached && !run.is_approaching();
     if (outcome != Outcome::goes_on || run.record_is_due() || begins) add(run.record());
+    pictures.look(outcome != Outcome::goes_on);
     if (outcome != Outcome::goes_on) {
       progress.done(words(records.back()));
       return outcome;
@@ -108,6 +111,7 @@ int run_element(const JobOptions& options)
   });
 
   ElementRun run(c, std::move(rock), materials);
+  ElementPictures pictures(folder.path(), c, run);
   std::vector<ElementRecord> records;
   std::vector<Outcome> outcomes;
   const auto close = [&] {
@@ -120,8 +124,8 @@ int run_element(const JobOptions& options)
   try {
     for (std::size_t leg = 0; leg < c.legs.size(); ++leg) {
       outcomes.push_back(Outcome::broke_off);
-      outcomes.back() =
-          follow(run, leg, name_of(c.legs[leg]), records, history ? &*history : nullptr);
+      outcomes.back() = follow(run, leg, name_of(c.legs[leg]), records,
+                               history ? &*history : nullptr, pictures);
       if (outcomes.back() != Outcome::done) break;
     }
   } catch (const NumericalError&) { // perhaps on one rank alone

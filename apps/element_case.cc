@@ -16,7 +16,6 @@ namespace mergel::apps {
 namespace {
 
 constexpr std::size_t most_legs = 12;
-constexpr double skin_share = 0.3; ///< of the smallest grain
 
 std::string key_of_leg(std::size_t k)
 {
@@ -91,15 +90,15 @@ void declare_analysis(CaseFile& file, ElementCase& c)
 void check_size(const CaseFile& file, const ElementCase& c)
 {
   const dem::Grading& sizes = c.specimen.specimen.sizes;
-  const double range = c.contact.g_a + skin_share * sizes.smallest();
-  const double reach = 0.5 * c.specimen.S * (sizes.largest() + range);
+  const double range = c.contact.g_a + dem::usual_skin * sizes.smallest();
+  const double least = dem::least_edge(sizes.largest(), range, c.specimen.S);
   const double edge = c.specimen.edges.minCoeff();
-  if (edge * (1.0 - c.strain_limit) < 4.0 * reach) // of find_pairs()
+  if (edge * (1.0 - c.strain_limit) < least)
     file.refuse(
         "Loading", "strain limit",
         "the cell, an edge of which is " + dem::shortest(1e3 * edge) +
             " mm, would become shorter than twice the reach of its largest grains, " +
-            dem::shortest(4e3 * reach) + " mm: lower it, or take a larger cell");
+            dem::shortest(1e3 * least) + " mm: lower it, or take a larger cell");
 }
 
 /// The leg that one after these would resume.
@@ -149,6 +148,16 @@ void declare(CaseFile& file, ElementCase& c)
   const auto section = file.section("Output");
   file.number("record every", c.record_every, inside(0.0, 0.1),
               "Driven strain from one line of history.csv to the next.");
+  file.choice("pictures", c.pictures,
+              std::vector<std::pair<std::string, ElementCase::Pictures>>{
+                  {"none", ElementCase::Pictures::none},
+                  {"legs", ElementCase::Pictures::legs},
+                  {"strain", ElementCase::Pictures::strain}},
+              "Of grains and bonds, for ParaView: none; at the start and where a leg ends; "
+              "or every so much strain besides.");
+  const auto only = file.only_if("pictures", {"strain"});
+  file.number("picture every", c.picture_every, inside(0.0, 1.0),
+              "Strain of any edge of the cell from one picture to the next.");
 }
 
 void complete(const CaseFile& file, ElementCase& c)
@@ -194,7 +203,7 @@ double list_skin(const dem::Particles& p)
 {
   double least = std::numeric_limits<double>::infinity();
   for (const dem::Body& b : p.body) least = std::min(least, 2.0 * b.R / b.S);
-  return skin_share * least;
+  return dem::usual_skin * least;
 }
 
 double sample_width(const ElementCase& c, const ElementRock& rock)
@@ -206,42 +215,29 @@ dem::PairMaterials resolved_materials(const ElementCase& c, const ElementRock& r
 {
   dem::PairMaterials m{c.bond.chosen(), c.contact};
   const double factor = c.size_effect.factor(sample_width(c, rock));
-  if (auto* b = std::get_if<dem::DamageBond>(&m.bond)) {
-    b->sigma_t *= factor;
-    b->sigma_c *= factor;
-    b->C *= factor;
-  } else if (auto* b = std::get_if<dem::ParallelBond>(&m.bond)) {
-    b->sigma_c *= factor;
-    b->tau_c *= factor;
-  }
+  std::visit([&](auto& bond) { bond = with_strengths_times(factor, bond); }, m.bond);
   return m;
 }
 
 std::string report(const ElementCase& c, const ElementRock& rock,
                    const dem::PairMaterials& materials)
 {
-  double S_min = rock.particles.body[0].S, S_max = S_min, d_min = 1e300, d_max = 0.0;
-  for (const dem::Body& b : rock.particles.body) {
-    S_min = std::min(S_min, b.S);
-    S_max = std::max(S_max, b.S);
-    d_min = std::min(d_min, 2.0 * b.R);
-    d_max = std::max(d_max, 2.0 * b.R);
-  }
+  const dem::GrainRange range = dem::describe_grains(rock.particles);
   std::ostringstream out;
   out.precision(4);
   const dem::Vec3 mm = 1e3 * rock.cell.size;
   const auto n = static_cast<double>(rock.particles.size());
-  out << "rock: " << n << " grains of " << 1e3 * d_min << " to " << 1e3 * d_max
+  out << "rock: " << n << " grains of " << 1e3 * range.d_min << " to " << 1e3 * range.d_max
       << " mm in a periodic cell of " << mm.x() << " x " << mm.y() << " x " << mm.z()
       << " mm, Z = 2 N_bonds/N = " << 2.0 * static_cast<double>(rock.bonded.size()) / n
       << '\n';
   const auto scaled = [&](const char* name, double at_1) {
-    out << ", " << name << ' ' << 1e3 * at_1 * S_min;
-    if (S_max > S_min) out << " to " << 1e3 * at_1 * S_max;
+    out << ", " << name << ' ' << 1e3 * at_1 * range.S_min;
+    if (range.S_max > range.S_min) out << " to " << 1e3 * at_1 * range.S_max;
     out << " mm";
   };
-  out << "resolved: S " << S_min;
-  if (S_max > S_min) out << " to " << S_max;
+  out << "resolved: S " << range.S_min;
+  if (range.S_max > range.S_min) out << " to " << range.S_max;
   if (const auto* b = std::get_if<dem::DamageBond>(&materials.bond)) {
     scaled("u_c", b->u_c);
     scaled("g_a", materials.contact.g_a);
@@ -258,7 +254,7 @@ std::string report(const ElementCase& c, const ElementRock& rock,
         << " mm (Eq. 18)";
   } else
     out << ", no size effect";
-  return out.str();
+  return out.str() + apps::report(c.specimen.strengths, rock.particles);
 }
 
 } // namespace mergel::apps

@@ -46,7 +46,11 @@ struct ElementCase {
   std::string critical_text;
   std::vector<dem::CriticalState> critical_states; ///< last states of other runs
 
+  // Output
+  enum class Pictures { none, legs, strain };
   double record_every = 2e-4; ///< strain [-]
+  Pictures pictures = Pictures::legs;
+  double picture_every = 1e-2; ///< strain [-]
 };
 
 void declare(CaseFile& file, ElementCase& c);

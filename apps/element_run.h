@@ -76,6 +76,7 @@ public:
   ElementRecord record();
 
   const ElementState& state() const { return state_; }
+  dem::Rock& rock() { return state_.rock; } ///< to be brought together, not to be changed
   double progress() const { return state_.farthest; }
 
 private:

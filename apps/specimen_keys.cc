@@ -147,9 +147,32 @@ void declare_packing(CaseFile& file, SpecimenKeys& k)
             "A specimen made before by mergel sample; empty: make it for this run.");
 }
 
+const std::vector<std::pair<std::string, dem::StrengthVariability::Distribution>>
+    distributions{{"none", dem::StrengthVariability::Distribution::none},
+                  {"log-normal", dem::StrengthVariability::Distribution::log_normal},
+                  {"Weibull", dem::StrengthVariability::Distribution::weibull}};
+
+void declare_strengths(CaseFile& file, dem::StrengthVariability& v)
+{
+  const auto section = file.section("Strength variability");
+  file.choice(
+      "distribution", v.distribution, distributions,
+      "Of a factor of mean 1 that each grain draws; a bond's strengths are times the "
+      "mean of its grains' factors, a bond's to a wall times its grain's.");
+  const auto only = file.only_if("distribution", {"log-normal", "Weibull"});
+  v.variation = unset;
+  file.number("coefficient of variation", v.variation, above_to(0.0, 1.0),
+              "Standard deviation of the grains' factors; that of bonds is 0.71 of it.");
+  file.integer("seed", v.seed, non_negative,
+               "Of the factors; with the same seed a grain keeps its factor in all jobs.");
+}
+
 std::string in_mm(double x)
 {
-  return dem::shortest(1e3 * x) + " mm";
+  std::ostringstream out;
+  out.precision(4);
+  out << 1e3 * x << " mm";
+  return out.str();
 }
 
 dem::SizeCurve curve_of(const CaseFile& file, const SpecimenKeys& k)
@@ -201,11 +224,14 @@ const char* finest_key(const SpecimenKeys& k)
 
 void declare(CaseFile& file, SpecimenKeys& k)
 {
-  const auto section = file.section("Specimen");
-  declare_shape(file, k);
-  declare_sizes(file, k);
-  declare_upscaling(file, k);
-  declare_packing(file, k);
+  {
+    const auto section = file.section("Specimen");
+    declare_shape(file, k);
+    declare_sizes(file, k);
+    declare_upscaling(file, k);
+    declare_packing(file, k);
+  }
+  declare_strengths(file, k.strengths);
 }
 
 void complete(const CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& contact)
@@ -234,10 +260,12 @@ void complete(const CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& 
   s.region = region_of(k);
 
   const double largest = s.sizes.largest() * std::max(s.scale.S_inner, s.scale.S_outer);
-  if (largest >= 0.5 * dem::least_width(s.region))
+  if (dem::least_width(s.region) <= dem::width_needed(s))
     file.refuse("Specimen", ratio_key(k),
                 "the largest grain, " + in_mm(largest) +
-                    ", does not fit the region: lower the ratio or enlarge the region");
+                    ", does not fit the region, which must be wider than " +
+                    in_mm(dem::width_needed(s)) +
+                    ": lower the ratio or enlarge the region");
   if (dem::most_grains(s) > dem::grains_limit)
     file.refuse(
         "Specimen", finest_key(k),
@@ -325,7 +353,9 @@ std::vector<std::pair<std::string, std::string>> recipe(const SpecimenKeys& k)
   return r;
 }
 
-dem::Sample obtain_sample(const CaseFile& file, const SpecimenKeys& k)
+namespace {
+
+dem::Sample read_or_make(const CaseFile& file, const SpecimenKeys& k)
 {
   if (!k.sample.empty()) {
     dem::Sample sample;
@@ -357,8 +387,6 @@ dem::Sample obtain_sample(const CaseFile& file, const SpecimenKeys& k)
   return sample;
 }
 
-namespace {
-
 double coordination(const dem::Sample& sample)
 {
   return 2.0 * static_cast<double>(sample.bonding.pairs.size()) /
@@ -366,6 +394,29 @@ double coordination(const dem::Sample& sample)
 }
 
 } // namespace
+
+dem::Sample obtain_sample(const CaseFile& file, const SpecimenKeys& k)
+{
+  dem::Sample sample = read_or_make(file, k);
+  dem::draw_strengths(k.strengths, sample.packing.particles);
+  return sample;
+}
+
+std::string report(const dem::StrengthVariability& v, const dem::Particles& p)
+{
+  if (!v.is_on()) return "";
+  std::string name;
+  for (const auto& [text, distribution] : distributions)
+    if (distribution == v.distribution) name = text;
+  const dem::StrengthSpread drawn = dem::describe_strengths(p);
+  std::ostringstream out;
+  out.precision(4);
+  out << "\nstrengths vary: " << name << ", seed " << v.seed << "; factors of the grains "
+      << drawn.least << " to " << drawn.greatest << ", mean " << drawn.mean
+      << ", coefficient of variation " << drawn.variation << " (wanted " << v.variation
+      << ')';
+  return out.str();
+}
 
 std::string report(const SpecimenKeys& k, const dem::Sample& sample)
 {
@@ -393,7 +444,7 @@ std::string report(const SpecimenKeys& k, const dem::Sample& sample)
   if (p.cell.is_periodic())
     out << "\nperiodic box as made: " << 1e3 * p.cell.size.x() << " x "
         << 1e3 * p.cell.size.y() << " x " << 1e3 * p.cell.size.z() << " mm";
-  return out.str();
+  return out.str() + report(k.strengths, p.particles);
 }
 
 std::string summary(const SpecimenKeys& k, const dem::Sample& sample)
@@ -402,7 +453,7 @@ std::string summary(const SpecimenKeys& k, const dem::Sample& sample)
   const dem::Packing& p = sample.packing;
   const dem::GrainRange range = dem::describe_grains(p.particles);
   const dem::SizeReport sizes = dem::describe_sizes(s.sizes, p.particles);
-  const std::vector<std::pair<const char*, double>> numbers{
+  std::vector<std::pair<const char*, double>> numbers{
       {"particles [-]", static_cast<double>(p.particles.size())},
       {"porosity [-]", p.porosity},
       {"porosity wanted [-]", s.porosity},
@@ -430,6 +481,14 @@ std::string summary(const SpecimenKeys& k, const dem::Sample& sample)
       {"periodic edge x [m]", p.cell.size.x()},
       {"periodic edge y [m]", p.cell.size.y()},
       {"periodic edge z [m]", p.cell.size.z()}};
+  if (k.strengths.is_on()) {
+    const dem::StrengthSpread drawn = dem::describe_strengths(p.particles);
+    numbers.insert(numbers.end(), {{"mean strength factor of the grains [-]", drawn.mean},
+                                   {"coefficient of variation of the strength factors [-]",
+                                    drawn.variation},
+                                   {"smallest strength factor [-]", drawn.least},
+                                   {"largest strength factor [-]", drawn.greatest}});
+  }
   std::string text;
   for (const auto& [name, value] : numbers)
     text += (text.empty() ? "{\n  \"" : ",\n  \"") + std::string(name) +

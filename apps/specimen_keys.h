@@ -1,10 +1,12 @@
-/// Section `Specimen` of a case: shape, grain sizes, upscaling, density of packing, bonding; the
-/// same in every job that makes a specimen.
+/// Sections `Specimen` and `Strength variability` of a case: shape, grain sizes, upscaling,
+/// density of packing, bonding, and how strengths vary; the same in every job that makes a
+/// specimen.
 #pragma once
 
 #include "apps/material_keys.h"
 #include "dem/io/sample_file.h"
 #include "dem/step.h"
+#include "dem/strength.h"
 
 namespace mergel::apps {
 
@@ -29,10 +31,11 @@ struct SpecimenKeys {
 
   dem::SpecimenSpec specimen; ///< region, sizes and contact are set by complete()
   dem::Symmetry symmetry = dem::Symmetry::mirror;
-  std::filesystem::path sample; ///< empty: make the specimen
+  std::filesystem::path sample;       ///< empty: make the specimen
+  dem::StrengthVariability strengths; ///< drawn by each run: no part of a sample's recipe
 };
 
-/// Declare the keys of `Specimen`; defaults of the choices are those that `k` holds.
+/// Declare the keys; defaults of the choices are those that `k` holds.
 void declare(CaseFile& file, SpecimenKeys& k);
 
 /// Fill k.specimen from the keys and this far-field contact, and check it. The sides of a half
@@ -43,10 +46,13 @@ void complete(const CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& 
 /// Key and value of everything that fixes a specimen, in a fixed order.
 std::vector<std::pair<std::string, std::string>> recipe(const SpecimenKeys& k);
 
-/// Read the sample that the case names and compare its recipe, or make one; collective.
-/// Nothing is written.
+/// Read the sample that the case names and compare its recipe, or make one, and draw the
+/// strengths of its grains; collective. Nothing is written.
 /// @throws InputError naming file, line and key
 dem::Sample obtain_sample(const CaseFile& file, const SpecimenKeys& k);
+
+/// "" without variability, else a line of its own on the strengths drawn.
+std::string report(const dem::StrengthVariability& v, const dem::Particles& p);
 
 /// One paragraph on what was reached.
 std::string report(const SpecimenKeys& k, const dem::Sample& sample);

@@ -129,6 +129,43 @@ CellAverages cell_averages(const Rock& rock)
   return a;
 }
 
+std::vector<Mat3> grain_stresses(const Rock& rock)
+{
+  const Particles& p = rock.particles;
+  std::vector<Mat3> sum(p.size(), Mat3::Zero()); // [J]
+  const auto add_force = [&](const Pair& q, const Branch& b, const Vec3& F) {
+    const double half_gap = 0.5 * (b.r.norm() - b.L);
+    const Mat3 moment = F * b.n().transpose();
+    sum[q.i] += (p.body[q.i].R + half_gap) * moment;
+    sum[q.j] += (p.body[q.j].R + half_gap) * moment;
+  };
+  const auto add_contact = [&](const Pair& q, const Vec3& f_s) {
+    const double f_n = read_contact(q, f_s, p, rock.cell, rock.material.contact).f_n;
+    if (f_n == 0.0) return;
+    const Branch b(rock, q);
+    add_force(q, b, f_s - f_n * b.n());
+  };
+  for (std::size_t k = 0; k < rock.bonds.size(); ++k) {
+    const Pair& q = rock.bonds.pairs[k];
+    if (rock.bonds.intact(k) > 0.0) {
+      const Branch b(rock, q);
+      const BondReading bond = read_bond(rock.bonds, k, p, rock.cell, rock.material.bond);
+      add_force(q, b, bond.N * b.n() + bond.V);
+    }
+    add_contact(q, shear_beside(rock.bonds, k));
+  }
+  for (std::size_t c = 0; c < rock.contacts.pairs.size(); ++c)
+    add_contact(rock.contacts.pairs[c], rock.contacts.shear[c].f_s);
+
+  double solid = 0.0; // [m^3]
+  for (const Body& b : p.body) solid += sphere_mass(b.R, 1.0);
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    const double share = sphere_mass(p.body[i].R, 1.0) / solid * rock.cell.volume();
+    sum[i] = (0.5 / share * (sum[i] + sum[i].transpose())).eval();
+  }
+  return sum;
+}
+
 Vec3 affine_stiffness(const Rock& rock)
 {
   ExactVector<EnergySum> sum;

@@ -5,6 +5,8 @@
 
 #include "dem/step.h"
 
+#include <vector>
+
 namespace mergel::dem {
 
 /// Means over a cell that is periodic in all axes.
@@ -25,6 +27,12 @@ struct CellAverages {
   double void_ratio = 0.0; ///< volume of voids over that of spheres [-]
 };
 CellAverages cell_averages(const Rock& rock);
+
+/// Stress of each grain of a rock that this rank holds whole [Pa]: Love's sum F (x) (x_c - x_i)
+/// over its contacts, F on the grain, over its share v/(1 - n) of the cell, v the sphere; its
+/// symmetric part, tension positive. Weighed with the shares they make up the stress of the
+/// cell. Walls and mirror images are left out. Not collective.
+std::vector<Mat3> grain_stresses(const Rock& rock);
 
 /// Stiffness of the cell along its edges if every grain followed the strain [Pa]:
 /// 1/V sum L^2 [k_n n_a^4 + k_s n_a^2 (1 - n_a^2)] with the bonds' stiffness times 1 - D.

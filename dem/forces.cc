@@ -1,5 +1,7 @@
 #include "dem/forces.h"
 
+#include "dem/strength.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -138,9 +140,44 @@ void prefetch(const Particles& p, Index j)
   __builtin_prefetch(&p.load[j], 1);
 }
 
+/// Bonds that are all as strong as their law says.
+struct AlikeStrengths {
+  template <IsBondLaw Law>
+  [[gnu::always_inline]] static Mask yields(const Law& law, const BondShape<Lanes>& shape,
+                                            const EffectiveLoads<Lanes>& load, const Batch&,
+                                            const Particles&)
+  {
+    return ~is_elastic(law, shape, load);
+  }
+  template <IsBondLaw Law>
+  [[gnu::always_inline]] static const Law& of(const Law& law, const Particles&, Index,
+                                              Index)
+  {
+    return law;
+  }
+};
+
+/// Bonds with a factor of their own: strengths times f are loads over f.
+struct VariedStrengths {
+  template <IsBondLaw Law>
+  [[gnu::always_inline]] static Mask yields(const Law& law, const BondShape<Lanes>& shape,
+                                            const EffectiveLoads<Lanes>& load,
+                                            const Batch& q, const Particles& p)
+  {
+    Lanes f;
+    for (int l = 0; l < n_lanes; ++l) f[l] = strength_between(p, q.i[l], q.j[l]); // > 0
+    return ~is_elastic(law, shape, load * (1.0 / f));
+  }
+  template <IsBondLaw Law>
+  static Law of(const Law& law, const Particles& p, Index i, Index j)
+  {
+    return with_strengths_times(strength_between(p, i, j), law);
+  }
+};
+
 /// Return the lanes that left the yield surface, one at a time.
-template <IsBondLaw Law>
-void return_lanes(const Law& b, const BondShape<Lanes>& s, const Lanes& S,
+template <class Strengths, IsBondLaw Law>
+void return_lanes(const Law& law, const BondShape<Lanes>& s, const Lanes& S,
                   const Mask& yields, const Batch& q, const EffectiveLoads<Lanes>& old,
                   EffectiveLoads<Lanes>& load, BondBlock& h, const Pair* pairs,
                   Particles& p, PairLosses& losses)
@@ -151,6 +188,7 @@ void return_lanes(const Law& b, const BondShape<Lanes>& s, const Lanes& S,
     const auto loads = [l](const EffectiveLoads<Lanes>& q) {
       return EffectiveLoads<double>{q.N[l], lane(q.V, l), lane(q.M, l), q.T[l]};
     };
+    const Law& b = Strengths::of(law, p, q.i[l], q.j[l]);
     const BondReturn r =
         return_bond(b, shape, S[l], {h.u_p[l], h.intact[l]}, loads(old), loads(load));
     load.N[l] = r.loads.N;
@@ -184,7 +222,7 @@ void add_slip(const Lanes& loss, const Batch& q, const Particles& p, PairLosses&
     if (loss[l] != 0.0 && p.owns(q.i[l])) losses.slip.add(loss[l]);
 }
 
-template <IsBondLaw Law>
+template <class Strengths, IsBondLaw Law>
 void add_forces_of(const Law& law, const LinearMaterial& contact_law,
                    const PeriodicCell& cell, double dt, Particles& p, Bonds& bonds,
                    PairLosses& losses)
@@ -214,10 +252,11 @@ void add_forces_of(const Law& law, const LinearMaterial& contact_law,
     EffectiveLoads<Lanes> load{shape.k_n * (k.gap - h.gap_0 - h.u_p),
                                V + k.du_s * shape.k_s, M + k.dtheta * shape.k_b,
                                h.T + k.dphi * shape.k_t};
-    const Mask yields = ~is_elastic(bond, shape, load) & (h.intact > Lanes{});
+    const Mask yields = Strengths::yields(bond, shape, load, q, p) & (h.intact > Lanes{});
     if (any(yields)) {
       const EffectiveLoads<Lanes> old{load.N - shape.k_n * k.du_n, V, M, h.T};
-      return_lanes(bond, shape, S, yields, q, old, load, h, &bonds.pairs[first], p, losses);
+      return_lanes<Strengths>(bond, shape, S, yields, q, old, load, h, &bonds.pairs[first],
+                              p, losses);
     }
     const Mask lives = h.intact > Lanes{};
     const Triple<Lanes> zero{};
@@ -282,7 +321,10 @@ void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, do
 {
   std::visit(
       [&](const auto& law) {
-        add_forces_of(law, material.contact, cell, dt, p, bonds, losses);
+        const auto& add = p.strength.empty()
+                              ? add_forces_of<AlikeStrengths, std::decay_t<decltype(law)>>
+                              : add_forces_of<VariedStrengths, std::decay_t<decltype(law)>>;
+        add(law, material.contact, cell, dt, p, bonds, losses);
       },
       material.bond);
 }

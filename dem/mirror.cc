@@ -1,5 +1,7 @@
 #include "dem/mirror.h"
 
+#include "dem/strength.h"
+
 #include <stdexcept>
 
 namespace mergel::dem {
@@ -90,7 +92,8 @@ void add_mirror_forces(const PairMaterials& material, double dt, Particles& p,
     if (m.bond.intact > 0.0)
       pull += std::visit(
           [&](const auto& law) {
-            return image_pull(law, dt, gap, p, m, losses, mirror.energy);
+            return image_pull(with_strengths_times(strength_of(p, m.particle), law), dt,
+                              gap, p, m, losses, mirror.energy);
           },
           material.bond);
 

@@ -16,6 +16,16 @@ namespace mergel::dem {
 ///   that a particle could meet its own image
 std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, double range);
 
+/// Margin of a list at S = 1 over the smallest grain, where nothing asks for another.
+inline constexpr double usual_skin = 0.3;
+
+/// Shortest edge of a periodic cell in which find_pairs() sees each pair once [m]: four times
+/// the reach, radius and half of the range, of the largest grain.
+inline double least_edge(double largest_diameter, double range, double S)
+{
+  return 2.0 * S * (largest_diameter + range);
+}
+
 /// Verlet list: the pairs within g_a + skin, good until some particle has moved by half its
 /// skin against the cell. A strain of the cell brings pairs nearer besides and takes its
 /// share of the skin.

@@ -56,6 +56,10 @@ double most_grains(const SpecimenSpec& spec);
 /// Bound of most_grains(): indices hold 32 bits, and such a run fills a large machine.
 inline constexpr double grains_limit = 2e7;
 
+/// Least width of the region that its largest grain needs [m]: twice its diameter, and in a
+/// periodic box room for the gaps that are looked for, lest it meet its own image.
+double width_needed(const SpecimenSpec& spec);
+
 /// Volume fraction of the spheres with their far-field shell, radius R + g_a S/2, at the
 /// target porosity. Growth finds room for it up to random close packing.
 double effective_solid_fraction(const SpecimenSpec& spec);

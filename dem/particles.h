@@ -47,6 +47,7 @@ struct Particles {
   std::vector<Load> load;        ///< whole for owned grains, in part for ghosts
   std::vector<std::uint64_t> id; ///< global, never reused, ascending
   std::vector<int> n_bonds;      ///< living bonds, those to walls and mirror image included
+  std::vector<double> strength;  ///< factor of bond strengths [-]; empty: 1 (strength.h)
 
   std::size_t size() const { return body.size(); }
   std::size_t n_owned() const { return n_owned_; }

@@ -13,8 +13,6 @@ namespace mergel::dem {
 
 namespace {
 
-constexpr double skin = 0.3;     // of the list, over d00
-constexpr double reserve = 0.1;  // of the list for growing sizes, over d00
 constexpr double safety = 0.7;   // of the time step
 constexpr double at_rest = 1e-3; // unbalanced-force ratio
 
@@ -35,7 +33,7 @@ Rock make_rock(const SpecimenSpec& s, const Packing& packing, double friction)
   rock.material.contact.mu = friction;
   rock.motion.free_rotation = s.free_rotation;
   const double d00 = s.sizes.smallest();
-  rock.list = VerletList(s.contact.g_a + reserve * d00, skin * d00);
+  rock.list = VerletList(s.contact.g_a + growth_reserve * d00, usual_skin * d00);
   for (const Face& face : solid_faces(s.region)) {
     PlaneWall wall;
     wall.plane.point = face.point;
@@ -68,8 +66,8 @@ public:
   Settling(const SpecimenSpec& s, const Packing& packing, double friction, double share,
            MPI_Comm comm)
       : spec_(s), full_(packing.particles.body), rock_(make_rock(s, packing, friction)),
-        volume_(volume(s.region)),
-        growth_allowed_(reserve * s.sizes.smallest() / (s.sizes.largest() + s.contact.g_a))
+        volume_(volume(s.region)), growth_allowed_(growth_reserve * s.sizes.smallest() /
+                                                   (s.sizes.largest() + s.contact.g_a))
   {
     resize(share);
     if (comm != MPI_COMM_NULL) share_out(rock_, comm);
@@ -193,9 +191,11 @@ namespace {
 
 /// Grows and shrinks the grains at the rate at which pressure is missing, halved each time the
 /// pressure passes its target.
-class Servo {
+class PressureHold {
 public:
-  Servo(Settling& settling, double pressure) : settling_(settling), wanted_(pressure) {}
+  PressureHold(Settling& settling, double pressure) : settling_(settling), wanted_(pressure)
+  {
+  }
 
   /// Ten steps; returns how much is missing before them, over the target.
   double run()
@@ -236,7 +236,7 @@ Packing lock(const SpecimenSpec& s, const Packing& cloud, double friction, MPI_C
   for (int k = 0; k < steps_of_flow; ++k) settling.step();
 
   settling.set_friction(s.contact.mu);
-  Servo hold(settling, s.pressure);
+  PressureHold hold(settling, s.pressure);
   int n_met = 0;
   for (int k = 0;; ++k) {
     progress(std::min(1.0, k / 1000.0));
@@ -288,20 +288,27 @@ void confine(const SpecimenSpec& s, Packing& packing, MPI_Comm comm,
   const bool is_loose = error_with(usual) > 0.0;
   if (least <= good) return;
   (is_loose ? high : low) = usual;
-  const bool is_within = (error_with(is_loose ? low : high) > 0.0) != is_loose;
+  const bool has_range = s.contact.mu > 0.0; // else they lock in one way alone
+  const bool is_within = has_range && (error_with(is_loose ? low : high) > 0.0) != is_loose;
   while (is_within && least > good && n_tries < most_tries) {
     const double middle = 0.5 * (low + high);
     (error_with(middle) > 0.0 ? high : low) = middle;
   }
   if (least <= porosity_tolerance) return;
 
-  error_with(is_loose ? s.contact.mu : 0.0); // the other end, to say what can be had
   std::ostringstream text;
   text.precision(4);
-  text << "cannot be met together with `Specimen/target pressure`: these grains lock "
-       << "between " << n_low << " and " << n_high << " under it, with a friction of 0 to "
-       << s.contact.mu << " while they are packed; change the porosity or "
-       << "`Contact/activation gap`";
+  text << "cannot be met together with `Specimen/target pressure`: these grains lock ";
+  if (has_range) {
+    error_with(is_loose ? s.contact.mu : 0.0); // the other end, to say what can be had
+    text << "between " << n_low << " and " << n_high
+         << " under it, with a friction of 0 to " << s.contact.mu
+         << " while they are packed; change the porosity or "
+         << "`Contact/activation gap`";
+  } else {
+    text << "at " << n_low << " under it, and without friction at no other; change the "
+         << "porosity, `Contact/activation gap` or `Contact/friction`";
+  }
   throw InputError(text.str());
 }
 

@@ -33,6 +33,10 @@ void confine(const SpecimenSpec& spec, Packing& packing, MPI_Comm comm,
 void expand(const SpecimenSpec& spec, Packing& packing, MPI_Comm comm,
             const std::function<void(double)>& progress);
 
+/// What the list of a settling rock holds beside its skin, over the smallest grain: room for
+/// sizes to grow before it is made anew.
+inline constexpr double growth_reserve = 0.1;
+
 /// Porosity and pressure that count as met.
 inline constexpr double porosity_tolerance = 0.005;
 inline constexpr double pressure_tolerance = 0.2; // of the pressure

@@ -1,5 +1,7 @@
 #include "dem/walls.h"
 
+#include "dem/strength.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -486,7 +488,8 @@ void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p, W
     const Vec3 v_a = at(wall.v, wall.topology, b.anchor);
     const Vec3 f = std::visit(
         [&](const auto& bond) {
-          return add_wall_bond(bond, yields, dt, x_a, v_a, p, b, losses);
+          return add_wall_bond(with_strengths_times(strength_of(p, b.particle), bond),
+                               yields, dt, x_a, v_a, p, b, losses);
         },
         law);
     push_nodes(wall, b.anchor, -f);

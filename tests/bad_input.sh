@@ -115,7 +115,7 @@ refuse "key given twice" 'case\.prm:[0-9]+: Pile/diameter = 2 mm: already set in
 place='((good\.prm(:[0-9]+)?: )|--set )'
 refuse_set "porosity that spheres cannot reach" "${place}Specimen/porosity = 0\.2: .*" \
   "Specimen/porosity=0.2"
-refuse_set "porosity that only pressure reaches" "${place}Specimen/porosity = 0\.485: .*" \
+refuse_set "porosity that only pressure reaches" "${place}Specimen/porosity = 0\.485: .*between some 0\.[0-9]+ and 1; .*" \
   "Specimen/porosity=0.485" "Specimen/diameter=6 mm" "Specimen/height=6 mm"
 refuse_set "grains too large for the region" "${place}Specimen/inner upscaling = 20: .*" \
   "Specimen/inner upscaling=20"
@@ -211,13 +211,28 @@ refuse "graded without an axis" \
   --set "Specimen/outer upscaling=3" --set "Specimen/inner radius=1 mm" --set "Specimen/outer radius=2 mm"
 sample_set "a box smaller than its grains" '--set Specimen/upscaling ratio = 80: the largest grain, .*' \
   "Specimen/upscaling ratio=80"
+sample_set "a box in which a grain meets its own image" \
+  '--set Specimen/upscaling ratio = 10: the largest grain, 1\.337 mm, .*wider than .*' \
+  "Specimen/upscaling ratio=10" "Specimen/edge z=2.9 mm"
 sample_set "a pressure of nothing" '--set Specimen/target pressure = 0 Pa: must satisfy .*> 0.*' \
   "Specimen/target pressure=0 Pa"
-sample_set "a box too dense for its shells" '--set Specimen/porosity = 0\.4: must be at least 0\.[0-9]+ .*' \
+sample_set "a box too dense for its shells" '--set Specimen/porosity = 0\.4: must be at least 0\.[0-9]+ and at most some 0\.[0-9]+, .*' \
   "Specimen/porosity=0.4"
 sample_set "a box too loose for its pressure" \
   '--set Specimen/porosity = 0\.7: cannot be met together with .*lock between 0\.[0-9]+ .*' \
   "Specimen/porosity=0.7" "Specimen/upscaling ratio=14" "Specimen/target pressure=50 kPa"
+variability="Strength variability"
+sample_set "unknown distribution" \
+  "--set $variability/distribution = Weibul: must be one of .*Did you mean \"Weibull\"\?" \
+  "$variability/distribution=Weibul"
+sample_set "a distribution without its width" ".*$variability/coefficient of variation.*" \
+  "$variability/distribution=log-normal"
+sample_set "strengths that vary too much" \
+  "--set $variability/coefficient of variation = 1\.5: must .*" \
+  "$variability/distribution=log-normal" "$variability/coefficient of variation=1.5"
+refuse_set "a width without a distribution" \
+  "--set $variability/coefficient of variation = 0\.3: is a key of .distribution. = .*" \
+  "$variability/coefficient of variation=0.3"
 edited case.prm '/set symmetry/d'
 refuse "a pile in a whole cylinder" '--set Specimen/shape = cylinder: .*half cylinder.*' \
   pile case.prm --output out --set "Specimen/shape=cylinder"

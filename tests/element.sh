@@ -57,6 +57,27 @@ within c "UCS" 3e6 6e6
 awk -v c="$(value c UCS)" -v d="$(value d UCS)" 'BEGIN { exit !(d > 1.2 * c && d < 1.6 * c) }' ||
   fail "UCS $(value c UCS), with the size effect $(value d UCS)"
 
+# Pictures: the start and the end of each of the five legs, and no more.
+[ "$(ls a/fields | wc -l)" -eq 12 ] && [ "$(grep -c '<DataSet' a/particles.pvd)" -eq 6 ] &&
+  [ "$(grep -c '<DataSet' a/bonds.pvd)" -eq 6 ] || fail "six pictures: $(ls a/fields)"
+for field in radius damage displacement stress; do
+  grep -aq "Name=\"$field\"" a/fields/particles_0005.vtp || fail "no $field in the picture of the grains"
+done
+! grep -aq 'Name="strength"' a/fields/particles_0005.vtp || fail "strengths are shown that do not vary"
+# 0.7 % in steps of 0.2 %, the start and the end.
+run "compression to axial strain = 0.7 %" "" "" "" pictures --set "Output/pictures=strain" \
+  --set "Output/picture every=0.002" --set "Strength variability/distribution=log-normal" \
+  --set "Strength variability/coefficient of variation=0.3" || fail "pictures by strain: $(cat pictures.log)"
+[ "$(ls pictures/fields/particles_* | wc -l)" -eq 5 ] || fail "five pictures: $(ls pictures/fields)"
+grep -aq 'Name="strength"' pictures/fields/particles_0000.vtp || fail "no strength in the picture of the grains"
+# Weaker grains yield first: the peak is lower and rounder than of strengths that are all alike.
+grep -q 'strengths vary: log-normal, seed 1; .*coefficient of variation 0\.[23]' pictures.log ||
+  fail "the strengths drawn are not said: $(head -4 pictures.log)"
+awk -v c="$(value c UCS)" -v d="$(value pictures UCS)" 'BEGIN { exit !(d < c && d > 0.7 * c) }' ||
+  fail "UCS $(value c UCS), with strengths that vary $(value pictures UCS)"
+run "compression to axial strain = 0.1 %" "" "" "" bare --set "Output/pictures=none" || fail "no pictures: $(cat bare.log)"
+[ ! -e bare/fields ] && [ ! -e bare/particles.pvd ] || fail "pictures that nobody asked for"
+
 # A specimen that is pulled apart, and a path that cannot be followed, are results.
 run "tension to axial strain = -6 %" "" "" "" e --set "Bond/softening displacement=0.0004 mm" \
   --set "Bond/softening rotation=0.004 rad" || fail "tension: $(cat e.log)"

@@ -37,7 +37,7 @@ std::vector<double> particle_damage(const Rock& rock)
 }
 
 void write_particles(const std::filesystem::path& file, const Rock& rock,
-                     const std::vector<Vec3>& x_0)
+                     const std::vector<Vec3>& x_0, const std::vector<Field>& more)
 {
   const Particles& p = rock.particles;
   const std::size_t n = p.n_owned();
@@ -56,9 +56,12 @@ void write_particles(const std::filesystem::path& file, const Rock& rock,
     put(force, k, p.load[k].f);
     put(displacement, k, b.x - x_0[k]);
   }
-  write_points(file, x,
-               {radius, velocity, scalar("damage", particle_damage(rock)), force, S, id,
-                displacement});
+  std::vector<Field> fields{radius,      velocity, scalar("damage", particle_damage(rock)),
+                            force,       S,        id,
+                            displacement};
+  if (!p.strength.empty()) fields.push_back(scalar("strength", p.strength));
+  fields.insert(fields.end(), more.begin(), more.end());
+  write_points(file, x, fields);
 }
 
 void write_bonds(const std::filesystem::path& file, const Rock& rock)

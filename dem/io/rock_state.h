@@ -6,9 +6,9 @@
 /// place and velocity of planes, wall nodes and pile; the exact sums of forces on them, of
 /// losses and works; counts of broken and yielded bonds, and breakages not yet taken.
 ///
-/// Not kept: what the case says (materials, gravity, topology of walls) and what a list
-/// holds without acting: an open contact has no history, and lists are made anew.
-/// Wall-clock times.
+/// Not kept: what the case says (materials, strengths of grains, gravity, topology of walls)
+/// and what a list holds without acting: an open contact has no history, and lists are made
+/// anew. Wall-clock times.
 #pragma once
 
 #include "dem/io/state_file.h"

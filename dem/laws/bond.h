@@ -61,6 +61,15 @@ struct DamageBond : BondSection {
   }
 };
 
+/// This law with all strengths times a factor; elasticity and softening stay.
+inline DamageBond with_strengths_times(double factor, DamageBond b)
+{
+  b.sigma_t *= factor;
+  b.sigma_c *= factor;
+  b.C *= factor;
+  return b;
+}
+
 /// True where the trial is inside the surface: m + n^2 < 1 and v^4 < (1-m-n^2)(1-n^2),
 /// rewritten without root or division:
 ///

@@ -27,6 +27,7 @@ concept IsBondLaw =
   law.check();
   { is_elastic(law, shapes, many) } -> std::same_as<Mask>;
   { is_elastic(law, shape, loads) } -> std::convertible_to<bool>;
+  { with_strengths_times(S, law) } -> std::same_as<Law>;
   { return_bond(law, shape, S, state, loads, loads) } -> std::same_as<BondReturn>;
   { yield_value(law, shape, loads) } -> std::same_as<double>;
   { break_mode(law, shape, loads) } -> std::same_as<BreakMode>;

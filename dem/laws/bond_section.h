@@ -64,6 +64,12 @@ struct EffectiveLoads {
   Real T{};       ///< twisting moment about n [N m]
 };
 
+template <class Real>
+EffectiveLoads<Real> operator*(const EffectiveLoads<Real>& q, const Real& factor)
+{
+  return {q.N * factor, q.V * factor, q.M * factor, q.T * factor};
+}
+
 /// q0.q1/k [J]: work of the constant load q0 on the elastic motion from rest to q1.
 template <class Real>
 Real mutual_energy(const BondShape<Real>& s, const EffectiveLoads<Real>& q0,

@@ -39,6 +39,14 @@ struct ParallelBond : BondSection {
   }
 };
 
+/// This law with all strengths times a factor.
+inline ParallelBond with_strengths_times(double factor, ParallelBond b)
+{
+  b.sigma_c *= factor;
+  b.tau_c *= factor;
+  return b;
+}
+
 /// Greatest stresses at the rim of the section [Pa].
 template <class Real>
 struct RimStress {

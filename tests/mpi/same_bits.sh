@@ -17,7 +17,7 @@ fail() { echo "FAILED: $*"; exit 1; }
 # A rank that waits for one that has failed would wait for ever.
 ranks() { local n=$1; shift; timeout 300 mpirun --oversubscribe -n "$n" "$@"; }
 
-for scene in block turning periodic element; do
+for scene in block turning periodic element varied; do
   ranks 1 "$scenes" "$scene" >one || fail "$scene on one rank"
   [ "$(wc -l <one)" -eq 10 ] || fail "$scene: ten lines on one rank"
   ranks 1 "$scenes" "$scene" rebuild >other || fail "$scene with rebuilds"

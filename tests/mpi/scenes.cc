@@ -6,6 +6,7 @@
 ///   turning    the same block, turning and flying across the borders of the ranks
 ///   periodic   a periodic box of bonded and unbonded grains, stirred until bonds break
 ///   element    the same box, squeezed along z until bonds break while its sides hold a stress
+///   varied     the same, with strengths that vary from grain to grain
 ///   rebuild    lists are built at every 7th step besides
 ///   rebalance  grains change ranks at every 50th step, by weights that make no sense;
 ///              doubled histories are compared
@@ -19,6 +20,7 @@
 #include "dem/io/rock_state.h"
 #include "dem/random.h"
 #include "dem/servo.h"
+#include "dem/strength.h"
 
 #include <cinttypes>
 #include <cstdio>
@@ -76,7 +78,8 @@ apps::WorkingRock make(const std::string& name)
 {
   apps::WorkloadSpec spec;
   spec.n_particles = 3000;
-  if (name == "periodic" || name == "element") {
+  const bool is_squeezed = name == "element" || name == "varied";
+  if (name == "periodic" || is_squeezed) {
     spec.workload = apps::Workload::frictional_packing;
     apps::WorkingRock w = apps::make_workload(spec);
     // Two thirds of what touches is bonded.
@@ -87,7 +90,7 @@ apps::WorkingRock make(const std::string& name)
     w.rock.contacts = {};
     w.rock.list.invalidate();
     if (name == "periodic") stir(w.rock, 10.0);
-    w.rock.cell.is_driven = name == "element";
+    w.rock.cell.is_driven = is_squeezed;
     return w;
   }
   if (name != "block" && name != "turning") throw std::invalid_argument("no scene " + name);
@@ -183,6 +186,8 @@ void run(const std::string& name, const Options& o)
   const auto n_before = w.n_steps;
   Servo servo;
   if (!o.restart.empty()) restore(w, servo, o.restart);
+  if (name == "varied")
+    draw_strengths({StrengthVariability::Distribution::weibull, 0.4, 3}, w.rock.particles);
   share_out(w.rock, MPI_COMM_WORLD);
   if (o.restart.empty())
     add_forces(w.rock, 0.0);

@@ -248,3 +248,31 @@ TEST_CASE("A rebuild of the lists is unobservable in a strained cell",
     REQUIRE(lazy.rock.particles.body[i].v == eager.rock.particles.body[i].v);
   }
 }
+
+TEST_CASE("Stresses of the grains, weighed with their volumes, make up that of the cell",
+          "[verification][dem]")
+{
+  DrivenRock w = disordered_rock(4);
+  squeeze(w, 1000); // bonds break, contacts press and slip
+  REQUIRE(w.rock.losses.broken > 0);
+  const CellAverages whole_cell = cell_averages(w.rock);
+  const std::vector<Mat3> grains = grain_stresses(w.rock);
+  Mat3 sum = Mat3::Zero();
+  double volume = 0.0, apart = 0.0;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const double v = sphere_mass(w.rock.particles.body[i].R, 1.0);
+    sum += v * grains[i];
+    volume += v;
+    apart = std::max(apart, (grains[i] - whole_cell.stress).norm());
+  }
+  // The arms of a contact add up to its branch: round-off of 800 pairs.
+  CHECK((sum / volume - whole_cell.stress).norm() < 1e-12 * whole_cell.stress.norm());
+  CHECK(apart > 0.1 * whole_cell.stress.norm()); // they are not all that of the cell
+
+  // In a crystal every grain is as the next: alone it tells the cell's stress.
+  DrivenRock c = crystal(face_centred_cell(), 3, R, 1.7);
+  for (int k = 0; k < 10; ++k) c.step(Vec3(0.0, 0.0, 1e-5 / c.dt));
+  const Mat3 sigma = cell_averages(c.rock).stress;
+  for (const Mat3& grain : grain_stresses(c.rock))
+    REQUIRE((grain - sigma).norm() < 1e-9 * sigma.norm());
+}

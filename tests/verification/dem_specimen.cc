@@ -124,12 +124,35 @@ TEST_CASE("An unjammed box has its porosity to a grain, its sizes, and no closed
   CHECK(p.whole_porosity == p.porosity);
   CHECK(p.overlap <= 1e-3);
   CHECK(p.cell.size == std::get<PeriodicBox>(s.region).size);
-  // Kolmogorov's distance of n draws stays below 1.95/sqrt(n) in 999 of 1000 seeds.
   const SizeReport sizes = describe_sizes(s.sizes, p.particles);
-  CHECK(sizes.distance_by_number < 1.95 / std::sqrt(n));
   CHECK(sizes.d_50 == Approx(s.sizes.sieve(0.5)).epsilon(0.03));
   for (const Body& b : p.particles.body)
     REQUIRE(((b.x.array() >= 0.0).all() && (b.x.array() < p.cell.size.array()).all()));
+}
+
+// One specimen says little: 1 of 100 seeds leaves the bound of the 1 % level, seed 1 among them.
+TEST_CASE("Over many seeds the grains are drawn from their grading as Kolmogorov has it",
+          "[verification][dem]")
+{
+  constexpr int n_seeds = 100;
+  double sum = 0.0;
+  int n_beyond = 0;
+  for (std::uint64_t seed = 1; seed <= n_seeds; ++seed) {
+    SpecimenSpec s = rock(200.0, 0.75); // loose: quickly made
+    s.seed = seed;
+    const Packing p = made(s);
+    // Stephens (1970), J. R. Stat. Soc. B 32, 115: distance of n draws as of very many.
+    const double root = std::sqrt(static_cast<double>(p.particles.size()));
+    const double distance = describe_sizes(s.sizes, p.particles).distance_by_number *
+                            (root + 0.12 + 0.11 / root);
+    sum += distance;
+    n_beyond += distance > 1.63;
+  }
+  // Kolmogorov's law has the mean sqrt(pi/2) ln 2 = 0.869 and the deviation 0.260 (Marsaglia,
+  // Tsang and Wang 2003): four standard errors. Without the largest tenth of
+  // the grains the mean were sqrt(200)/10 = 1.4 at least.
+  CHECK(sum / n_seeds == Approx(0.869).margin(4.0 * 0.260 / std::sqrt(1.0 * n_seeds)));
+  CHECK(n_beyond <= 5); // 1 expected; more than 5 in one of 1900 sets of seeds
 }
 
 TEST_CASE("A periodic box is as dense beside its faces as inside", "[verification][dem]")
@@ -181,8 +204,29 @@ TEST_CASE("A confined cylinder meets porosity and pressure inside its walls",
   CHECK(p.whole_porosity > p.porosity); // the walls leave voids
   CHECK(p.pressure == Approx(20e3).epsilon(pressure_tolerance));
   CHECK_FALSE(p.cell.is_periodic());
-  // Measured 0.0033 R at the most loaded of 340 grains, some 25 mean forces.
-  for (const Body& b : p.particles.body) REQUIRE(depth(s.region, b.x) > 0.99 * b.R);
+
+  // At rest the virial of the walls, which are smooth, is that of the pressure: 3 p V is the sum
+  // of their forces times their distances from the centre of the cylinder.
+  const double E = s.contact.E;
+  double virial = 0.0, r = 2e-3; // [J]; distance of the nearest face [m]
+  for (const Face& face : solid_faces(s.region)) {
+    const double away = (Vec3(0.0, 0.0, -2e-3) - face.point).dot(face.inwards);
+    r = std::min(r, away);
+    for (const Body& b : p.particles.body) {
+      const double overlap = b.R - (b.x - face.point).dot(face.inwards);
+      if (overlap > 0.0) virial += pi * E * b.R * overlap * away; // k_n = E pi R^2/R
+    }
+  }
+  const double of_pressure = 3.0 * p.pressure * volume(s.region);
+  CHECK(virial == Approx(of_pressure).epsilon(0.01)); // measured 0.0014: at rest to 1e-3
+
+  // A wall pushes a grain with F, and what balances F pushes as much: 2 F r <= 3 p V. Hence the
+  // most that a grain presses into a wall, 0.010 R here for the most loaded one, which bears
+  // 0.32 of it (0.0033 R): eleven times the mean of 71 forces at the walls, on a chain that
+  // leads across the six grains of the diameter.
+  const double most = 0.5 * of_pressure / r;
+  for (const Body& b : p.particles.body)
+    REQUIRE(b.R - depth(s.region, b.x) < most / (pi * E * b.R));
 }
 
 TEST_CASE("The same seed packs a confined box to the same bits", "[verification][dem]")
@@ -236,4 +280,44 @@ TEST_CASE("A porosity that a pressure cannot hold is refused with the range that
   s.compaction = Compaction::confined;
   s.pressure = 20e3;
   CHECK_THROWS_WITH(made(s), Contains("these grains lock between 0.6"));
+}
+
+TEST_CASE("Grains without friction lock at one porosity, which is named and can be had",
+          "[verification][dem]")
+{
+  SpecimenSpec s = rock(200.0, 0.6);
+  s.contact.mu = 0.0;
+  s.compaction = Compaction::confined;
+  s.pressure = 200e3;
+  std::string said;
+  try {
+    made(s);
+  } catch (const mergel::InputError& error) {
+    said = error.what();
+  }
+  const std::string before = "these grains lock at ";
+  REQUIRE_THAT(said, Contains(before));
+  const double porosity = std::stod(said.substr(said.find(before) + before.size()));
+  // A box that holds as many grains at that porosity.
+  SpecimenSpec again = rock(200.0, porosity);
+  again.contact.mu = 0.0;
+  again.compaction = Compaction::confined;
+  again.pressure = 200e3;
+  CHECK(made(again).porosity == Approx(porosity).margin(porosity_tolerance));
+}
+
+TEST_CASE("The least porosity that a refusal names can be packed without a pressure",
+          "[verification][dem]")
+{
+  std::string said;
+  try {
+    made(rock(600.0, 0.47));
+  } catch (const mergel::InputError& error) {
+    said = error.what();
+  }
+  const std::string before = "come apart between some ";
+  REQUIRE_THAT(said, Contains(before) && Contains(" and 1;"));
+  const double lowest = std::stod(said.substr(said.find(before) + before.size()));
+  CHECK(lowest > 0.49);
+  CHECK(made(rock(600.0, lowest)).overlap <= 1e-3);
 }
