@@ -61,9 +61,12 @@ int run_element(const JobOptions& options)
   CaseFile file;
   ElementCase c;
   declare(file, c);
-  read_case(file, options, std::nullopt);
-  complete(file, c);
-  const OutputFolder folder = folder_to_begin_in(options);
+  on_every_rank([&] {
+    read_case(file, options, std::nullopt);
+    complete(file, c);
+  });
+  OutputFolder folder(options.output, Earlier::keep);
+  on_first_rank([&] { folder = folder_to_begin_in(options); });
   std::vector<std::filesystem::path> inputs;
   if (options.restart.empty()) inputs.push_back(options.case_file);
   for (const auto& input : {c.specimen.sample, c.specimen.table})

@@ -124,7 +124,7 @@ void declare(CaseFile& file, ElementCase& c)
               "Driven strain from one line of history.csv to the next.");
 }
 
-void complete(const CaseFile& file, ElementCase& c)
+void complete(CaseFile& file, ElementCase& c)
 {
   if (c.specimen.shape != SpecimenKeys::Shape::periodic_box)
     file.refuse("Specimen", "shape", "an element test leads a `periodic box`");

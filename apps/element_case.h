@@ -50,7 +50,7 @@ struct ElementCase {
 void declare(CaseFile& file, ElementCase& c);
 
 /// Checks that span keys; reads the legs.
-void complete(const CaseFile& file, ElementCase& c);
+void complete(CaseFile& file, ElementCase& c);
 
 /// Grains of a periodic cell and what is bonded.
 struct ElementRock {

@@ -60,6 +60,11 @@ public:
   /// "; the last checkpoint is ..., continue with ...", for a message on a failure.
   std::string remedy() const;
 
+  /// Throw the exception that is being handled: a failure of run, system or library (exit
+  /// code 2) as a NumericalError with the remedy, what all ranks know and all else as it is.
+  /// @pre called from a catch block
+  [[noreturn]] void rethrow_with_remedy() const;
+
   std::size_t n_written() const { return n_written_; }
   double longest_write() const { return longest_; } ///< [s]
 
@@ -75,6 +80,7 @@ private:
   std::filesystem::path last_;
   double written_, asked_;               ///< instants [s]
   double longest_ = 0.0, between_ = 0.0; ///< longest write, and time between two looks [s]
+  bool has_estimate_ = false; ///< longest_ is measured, or guessed from the bytes
   std::size_t n_written_ = 0;
 };
 

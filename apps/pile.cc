@@ -491,12 +491,18 @@ std::filesystem::path bring_along(const std::filesystem::path& checkpoint,
                                   const std::filesystem::path& folder)
 {
   const std::filesystem::path there = folder / checkpoint.filename();
-  std::error_code error;
-  if (std::filesystem::equivalent(checkpoint, there, error)) return checkpoint;
   on_first_rank([&] {
+    std::error_code error;
+    if (std::filesystem::equivalent(checkpoint, there, error)) return;
     dem::replace_file(there, [&](const std::filesystem::path& file) {
+      std::error_code failed;
       std::filesystem::copy_file(checkpoint, file,
-                                 std::filesystem::copy_options::overwrite_existing);
+                                 std::filesystem::copy_options::overwrite_existing, failed);
+      if (failed)
+        throw NumericalError(there.string() + ": the checkpoint cannot be brought along: " +
+                             failed.message() +
+                             ". Check the permissions of both folders and the free space, "
+                             "or go on in the folder where it is, without --output.");
     });
   });
   return there;
@@ -539,22 +545,23 @@ void go_on(Installation& run, const dem::State& state,
 int run_pile(const JobOptions& options)
 {
   const double start = dem::wall_clock();
-  std::optional<Restart> restart;
-  on_every_rank([&] { restart = find_restart(options.restart, "pile"); });
+  std::optional<Restart> restart = find_restart(options.restart, "pile");
   CaseFile file;
   PileCase c;
   declare(file, c);
-  read_case(file, options, restart);
-  complete(file, c);
   std::vector<CaseFile::Change> changed;
-  if (restart) {
+  on_every_rank([&] {
+    read_case(file, options, restart);
+    complete(file, c);
+    if (!restart) return;
     changed = check_case(file, *restart, free_keys);
     check_new_end(file, c, *restart);
-    std::cout << report(*restart, changed) << '\n';
-  }
-  const OutputFolder folder = folder_of(options, restart);
+  });
+  if (restart) std::cout << report(*restart, changed) << '\n';
+  OutputFolder folder(options.output, Earlier::keep);
   const auto inputs = inputs_of(options, c, restart);
   on_first_rank([&] {
+    folder = folder_of(options, restart);
     folder.check(inputs);
     if (restart) PileOutput::check(restart->folder, restart->checkpoint.state);
   });
@@ -566,14 +573,16 @@ int run_pile(const JobOptions& options)
   std::optional<CoupledRock> coupled;
   if (restart) {
     std::cout << far_field.summary() << '\n';
-    const dem::State& state = restart->checkpoint.state;
+    dem::State& state = restart->checkpoint.state;
     std::vector<dem::PileWall> piles;
     if (Installation::is_in(state)) piles.push_back(make_pile(c));
     coupled.emplace(c.rock, state, std::move(piles), std::move(far_field),
                     std::move(interface));
     on_first_rank([&] {
       folder.commit(inputs);
-      folder.cut_back(PileOutput::n_frames(state), restart->checkpoint.label.step);
+      for (const auto& file :
+           folder.cut_back(PileOutput::n_frames(state), restart->checkpoint.label.step))
+        std::cout << "set aside: " << file.string() << '\n';
       file.write_resolved(folder.path() / "resolved.prm");
       output.emplace(folder.path(), c, restart->folder, state);
     });
@@ -618,10 +627,8 @@ int run_pile(const JobOptions& options)
     if (!is_driving) run.begin();
     is_driving = true;
     run.run(after_step);
-  } catch (const CollectiveFailure&) {
-    throw; // says all there is to say
-  } catch (const std::runtime_error& e) {
-    throw NumericalError(e.what() + keeper.remedy());
+  } catch (...) {
+    keeper.rethrow_with_remedy();
   }
 
   const std::size_t n_debris = count_debris(coupled->rock, c.rock.lip);

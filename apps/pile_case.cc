@@ -41,7 +41,7 @@ void declare(CaseFile& file, PileCase& c)
       "last two are kept.");
 }
 
-void complete(const CaseFile& file, PileCase& c)
+void complete(CaseFile& file, PileCase& c)
 {
   complete(file, c.rock);
   const auto mm = [](double x) { return dem::shortest(1e3 * x) + " mm"; };

@@ -30,6 +30,6 @@ struct PileCase {
 void declare(CaseFile& file, PileCase& c);
 
 /// @throws InputError naming file, line and key
-void complete(const CaseFile& file, PileCase& c);
+void complete(CaseFile& file, PileCase& c);
 
 } // namespace mergel::apps

@@ -15,13 +15,15 @@ struct Restart {
   std::filesystem::path file;   ///< the checkpoint
   std::filesystem::path folder; ///< results of the earlier run: where the file is
   dem::Checkpoint checkpoint;
-  std::vector<std::string> refused; ///< newer checkpoints that cannot be read, and why
+  std::vector<std::string> refused; ///< newer checkpoints that are damaged, and how
 };
 
 /// The checkpoint at `place`: the file, or the newest good one of a folder. Nothing when
-/// `place` is empty, or a folder without checkpoints: then the run begins.
+/// `place` is empty, or a folder without checkpoints: then the run begins. Collective: the
+/// first rank chooses for all.
 /// @throws InputError when what is there cannot be read, naming an older good one beside
-///   it; when it is of another job
+///   it; when a newer one cannot be read and is not damaged: it may be whole, for another
+///   user or program; when it is of another job
 std::optional<Restart> find_restart(const std::filesystem::path& place,
                                     const std::string& job);
 
