@@ -6,6 +6,7 @@
 #include "apps/ranks.h"
 #include "apps/restart.h"
 
+#include <cmath>
 #include <iostream>
 #include <optional>
 
@@ -18,7 +19,7 @@ std::string words(const ElementRecord& r)
   std::ostringstream out;
   out.precision(3);
   out << "p " << 1e-6 * r.whole.p() << "  q " << 1e-6 * r.whole.q() << " MPa  axial strain "
-      << 100.0 * r.whole.axial_strain << " %  broken " << r.broken;
+      << 100.0 * r.whole.axial_strain() << " %  broken " << r.broken;
   return out.str();
 }
 
@@ -34,15 +35,40 @@ Outcome follow(ElementRun& run, std::size_t leg, const std::string& name,
   add(run.record());
   Progress progress("leg " + std::to_string(leg + 1) + ", " + name);
   for (;;) {
+    const bool approached = run.is_approaching();
     run.step();
     const Outcome outcome = run.outcome();
-    if (outcome != Outcome::goes_on || run.record_is_due()) add(run.record());
+    const bool begins = approached && !run.is_approaching();
+    if (outcome != Outcome::goes_on || run.record_is_due() || begins) add(run.record());
     if (outcome != Outcome::goes_on) {
       progress.done(words(records.back()));
       return outcome;
     }
     progress.update(run.progress(), [&] { return words(records.back()); });
   }
+}
+
+/// What was found in the legs that were begun, and what it took.
+ElementSummary summary_of(const ElementCase& c, const ElementRun& run,
+                          const std::vector<Outcome>& outcomes,
+                          const std::vector<ElementRecord>& records, double seconds)
+{
+  ElementSummary s;
+  s.legs = analyse(c, outcomes, records);
+  for (const ElementRecord& r : records) {
+    s.worst_energy_error = std::max(s.worst_energy_error, std::abs(r.energy_error));
+    s.greatest_inertial_number = std::max(s.greatest_inertial_number, r.inertial_number);
+  }
+  s.last = records.back();
+  s.critical = critical_states(c, s.last);
+  const ElementState& state = run.state();
+  s.n_particles = state.rock.particles.size();
+  s.greatest_rate = state.greatest_rate;
+  s.n_steps = state.n_steps;
+  s.n_limited = state.servo.n_limited;
+  s.dt = state.dt;
+  s.seconds = seconds;
+  return s;
 }
 
 } // namespace
@@ -74,9 +100,7 @@ int run_element(const JobOptions& options)
   on_first_rank([&] { folder.check(inputs); });
 
   ElementRock rock = obtain_rock(file, c);
-  const double width =
-      c.size_effect.width > 0.0 ? c.size_effect.width : rock.cell.size.mean();
-  const dem::PairMaterials materials = resolved_materials(c, width);
+  const dem::PairMaterials materials = resolved_materials(c, rock);
   std::cout << report(c, rock, materials) << '\n';
 
   std::optional<ElementHistory> history;
@@ -87,29 +111,27 @@ int run_element(const JobOptions& options)
   });
 
   ElementRun run(c, std::move(rock), materials);
-  ElementSummary s;
-  s.n_particles = run.state().rock.particles.size();
-  Outcome outcome = Outcome::done;
-  for (std::size_t leg = 0; leg < c.legs.size() && outcome == Outcome::done; ++leg) {
-    std::vector<ElementRecord> records;
-    outcome =
-        follow(run, leg, name_of(c.legs[leg]), records, history ? &*history : nullptr);
-    s.legs.push_back(analyse(c, c.legs[leg], outcome, records));
-    for (const ElementRecord& r : records) {
-      s.worst_energy_error = std::max(s.worst_energy_error, std::abs(r.energy_error));
-      s.greatest_inertial_number = std::max(s.greatest_inertial_number, r.inertial_number);
+  std::vector<ElementRecord> records;
+  std::vector<Outcome> outcomes;
+  const auto close = [&] {
+    if (!is_first_rank() || records.empty()) return;
+    const ElementSummary s =
+        summary_of(c, run, outcomes, records, dem::wall_clock() - start);
+    write_summary(folder.path() / "summary.json", c, s);
+    print_summary(folder.path(), s);
+  };
+  try {
+    for (std::size_t leg = 0; leg < c.legs.size(); ++leg) {
+      outcomes.push_back(Outcome::broke_off);
+      outcomes.back() =
+          follow(run, leg, name_of(c.legs[leg]), records, history ? &*history : nullptr);
+      if (outcomes.back() != Outcome::done) break;
     }
-    s.last = records.back();
+  } catch (const NumericalError&) { // perhaps on one rank alone
+    close();
+    throw;
   }
-
-  s.critical = critical_states(c, s.last);
-  s.greatest_rate = run.state().greatest_rate;
-  s.n_steps = run.state().n_steps;
-  s.n_limited = run.state().servo.n_limited;
-  s.dt = run.state().dt;
-  s.seconds = dem::wall_clock() - start;
-  on_first_rank([&] { write_summary(folder.path() / "summary.json", s); });
-  print_summary(folder.path(), s);
+  close();
   return 0;
 }
 

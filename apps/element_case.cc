@@ -2,7 +2,9 @@
 
 #include "apps/units.h"
 #include "apps/words.h"
+#include "dem/error.h"
 #include "dem/io/history.h"
+#include "dem/io/table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +54,7 @@ void declare_loading(CaseFile& file, ElementCase& c)
   file.quantity("reference pressure", c.reference_pressure, "Pa", positive,
                 "Stands for p in I where |p| is below.", "MPa");
   file.number("strain limit", c.strain_limit, inside(0.0, 0.9),
-              "A leg that comes so far without its goal ends the test.");
+              "A test that comes so far, from the edges it began with, ends there.");
   file.number(
       "reversal", c.reversal, inside(0.0, 1.0),
       "A leg to a stress that falls back by this share of the way it had made has met "
@@ -100,11 +102,36 @@ void check_size(const CaseFile& file, const ElementCase& c)
             dem::shortest(4e3 * reach) + " mm: lower it, or take a larger cell");
 }
 
+/// The leg that one after these would resume.
+const dem::Leg& resumed(const std::vector<dem::Leg>& legs)
+{
+  const auto at = std::find_if(legs.rbegin(), legs.rend(), [](const dem::Leg& leg) {
+    return leg.kind != dem::PathKind::resume;
+  });
+  require(at != legs.rend(), "there is no leg before to resume");
+  return *at;
+}
+
+/// Where another run ended, from its folder of results.
+dem::CriticalState last_state(const CaseFile& file, const std::filesystem::path& folder)
+{
+  try {
+    const dem::Table table = dem::read_table(folder / "history.csv");
+    const auto last = [&](const char* name, const char* unit) {
+      return table.column(name, unit).back(); // a table has a row
+    };
+    return {last("p", "Pa"), last("q", "Pa"), last("void ratio", "-")};
+  } catch (const InputError& e) {
+    file.refuse("Analysis", "critical states",
+                folder.string() + " holds no results of an element test: " + e.what());
+  }
+}
+
 } // namespace
 
 double SizeEffect::factor(double B) const
 {
-  if (!is_on || B == reference_width) return 1.0;
+  if (!is_on || std::abs(B / reference_width - 1.0) < 0.01) return 1.0;
   return psi * std::pow(reference_width / B, 0.18); // B > 0: a width
 }
 
@@ -143,19 +170,17 @@ void complete(CaseFile& file, ElementCase& c)
     if (is_over)
       file.refuse("Loading", key_of_leg(k), "the leg before is empty: close the gap");
     try {
-      for (const dem::Leg& leg : read_legs(c.leg_texts[k])) c.legs.push_back(leg);
+      for (const dem::Leg& leg : read_legs(c.leg_texts[k])) {
+        if (leg.kind == dem::PathKind::resume) leg.check_after(resumed(c.legs));
+        c.legs.push_back(leg);
+      }
     } catch (const std::invalid_argument& e) {
       file.refuse("Loading", key_of_leg(k), e.what());
     }
-    if (c.legs.front().kind == dem::PathKind::resume)
-      file.refuse("Loading", key_of_leg(k), "there is no leg before to resume");
   }
   std::istringstream folders(c.critical_text);
-  for (std::string folder; folders >> folder;) {
-    c.critical_states.emplace_back(folder);
-    if (!std::filesystem::exists(c.critical_states.back() / "history.csv"))
-      file.refuse("Analysis", "critical states", folder + " holds no results of a run");
-  }
+  for (std::string folder; folders >> folder;)
+    c.critical_states.push_back(last_state(file, folder));
 }
 
 ElementRock obtain_rock(const CaseFile& file, const ElementCase& c)
@@ -172,10 +197,15 @@ double list_skin(const dem::Particles& p)
   return skin_share * least;
 }
 
-dem::PairMaterials resolved_materials(const ElementCase& c, double width)
+double sample_width(const ElementCase& c, const ElementRock& rock)
+{
+  return c.size_effect.width > 0.0 ? c.size_effect.width : rock.cell.size.mean();
+}
+
+dem::PairMaterials resolved_materials(const ElementCase& c, const ElementRock& rock)
 {
   dem::PairMaterials m{c.bond.chosen(), c.contact};
-  const double factor = c.size_effect.factor(width);
+  const double factor = c.size_effect.factor(sample_width(c, rock));
   if (auto* b = std::get_if<dem::DamageBond>(&m.bond)) {
     b->sigma_t *= factor;
     b->sigma_c *= factor;
@@ -223,8 +253,7 @@ std::string report(const ElementCase& c, const ElementRock& rock,
         << 1e-6 * b->tau_c << " MPa";
   }
   if (c.size_effect.is_on) {
-    const double B =
-        c.size_effect.width > 0.0 ? c.size_effect.width : rock.cell.size.mean();
+    const double B = sample_width(c, rock);
     out << ", times " << c.size_effect.factor(B) << " for a width of " << 1e3 * B
         << " mm (Eq. 18)";
   } else

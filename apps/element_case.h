@@ -6,6 +6,7 @@
 #include "apps/material_keys.h"
 #include "apps/specimen_keys.h"
 #include "dem/averages.h"
+#include "dem/element_analysis.h"
 
 namespace mergel::apps {
 
@@ -16,7 +17,8 @@ struct SizeEffect {
   double reference_width = 50e-3; ///< [m]
   double psi = 1.1;               ///< of any width but the reference's [-]
 
-  /// Factor of all strengths: psi (B_ref/B)^0.18, 1 at the reference width.
+  /// Factor of all strengths: psi (B_ref/B)^0.18; 1 at the reference width, which a width
+  /// is that differs by less than 1 %: a cell that was confined is a little off its edge.
   double factor(double B) const;
 };
 
@@ -31,7 +33,7 @@ struct ElementCase {
   std::vector<dem::Leg> legs;
   double inertial_number = 5e-4;
   double reference_pressure = 1e6; ///< [Pa]
-  double strain_limit = 0.5;       ///< of a leg [-]
+  double strain_limit = 0.5;       ///< of the test [-]
   double reversal = 0.5;           ///< of the way made towards a goal [-]
 
   // Motion
@@ -41,8 +43,8 @@ struct ElementCase {
   // Analysis
   double secant_from = 1e-4, secant_to = 1e-3; ///< strain [-]
   double yield_offset = 2e-4;                  ///< strain [-]
-  std::vector<std::filesystem::path> critical_states;
   std::string critical_text;
+  std::vector<dem::CriticalState> critical_states; ///< last states of other runs
 
   double record_every = 2e-4; ///< strain [-]
 };
@@ -61,12 +63,15 @@ struct ElementRock {
 /// Collective. @throws InputError naming file, line and key
 ElementRock obtain_rock(const CaseFile& file, const ElementCase& c);
 
+/// B of the size effect [m]: its key, or the mean edge of the cell.
+double sample_width(const ElementCase& c, const ElementRock& rock);
+
 /// Margin of the lists at S = 1 [m], 0.3 of the smallest grain.
 double list_skin(const dem::Particles& p);
 
 /// The materials of the run: the keys' values at S = 1, with the size effect applied to the
 /// strengths. Upscaling (Eq. 8) is the grains' own: a pair takes u_c and g_a times its S.
-dem::PairMaterials resolved_materials(const ElementCase& c, double width);
+dem::PairMaterials resolved_materials(const ElementCase& c, const ElementRock& rock);
 
 /// What was resolved, in words.
 std::string report(const ElementCase& c, const ElementRock& rock,

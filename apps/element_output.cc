@@ -2,8 +2,8 @@
 
 #include "apps/progress.h"
 #include "dem/io/atomic_file.h"
-#include "dem/io/table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <sstream>
@@ -43,6 +43,15 @@ const std::vector<std::string> columns{
     "contact fabric xx [-]",
     "contact fabric yy [-]",
     "contact fabric zz [-]",
+    "bond fabric xy [-]",
+    "bond fabric xz [-]",
+    "bond fabric yz [-]",
+    "contact fabric xy [-]",
+    "contact fabric xz [-]",
+    "contact fabric yz [-]",
+    "stress xy [Pa]",
+    "stress xz [Pa]",
+    "stress yz [Pa]",
     "elastic energy of bonds [J]",
     "elastic energy of contacts [J]",
     "kinetic energy [J]",
@@ -75,11 +84,11 @@ void ElementHistory::add(const ElementRecord& r)
   const dem::Mat3 &b = a.bond_fabric, &k = a.contact_fabric;
   history_.add({r.time,
                 count(r.leg + 1),
-                r.whole.axial_strain,
-                r.whole.lateral_strain,
-                r.whole.volumetric_strain,
-                r.of_leg.axial_strain,
-                r.of_leg.volumetric_strain,
+                r.whole.axial_strain(),
+                r.whole.lateral_strain(),
+                r.whole.volumetric_strain(),
+                r.of_leg.axial_strain(),
+                r.of_leg.volumetric_strain(),
                 -a.stress(2, 2),
                 -a.stress(0, 0),
                 -a.stress(1, 1),
@@ -103,6 +112,15 @@ void ElementHistory::add(const ElementRecord& r)
                 k(0, 0),
                 k(1, 1),
                 k(2, 2),
+                b(0, 1),
+                b(0, 2),
+                b(1, 2),
+                k(0, 1),
+                k(0, 2),
+                k(1, 2),
+                -a.stress(0, 1),
+                -a.stress(0, 2),
+                -a.stress(1, 2),
                 e.bonds,
                 e.contacts,
                 e.kinetic,
@@ -119,20 +137,47 @@ void ElementHistory::add(const ElementRecord& r)
 
 namespace {
 
-/// Stress and strain of a leg by what it drives, compression or pull positive.
-template <class Strain, class Stress>
-dem::Curve curve_of(const std::vector<ElementRecord>& records, Strain&& strain,
-                    Stress&& stress)
-{
-  dem::Curve c;
-  for (const ElementRecord& r : records) {
-    c.strain.push_back(strain(r.of_leg));
-    c.stress.push_back(stress(r.of_leg));
+/// What is read off a leg: its records and those of the legs that resume it, without the
+/// approach and without the loops of unloading and reloading.
+class Backbone {
+public:
+  Backbone(const std::vector<ElementRecord>& records, std::size_t first, std::size_t last)
+  {
+    for (const ElementRecord& r : records) {
+      if (r.leg < first || r.leg > last || r.is_approach) continue;
+      if (r.leg == first) direction_ = r.driven_strain < 0.0 ? -1.0 : 1.0;
+    }
+    double farthest = -1.0;
+    for (const ElementRecord& r : records) {
+      if (r.leg < first || r.leg > last || r.is_approach) continue;
+      if (direction_ * r.driven_strain < farthest) continue;
+      farthest = direction_ * r.driven_strain;
+      states_.push_back(r.of_leg);
+    }
   }
-  return c;
-}
 
-/// Names of what is read off one curve; empty: not of this leg.
+  bool is_empty() const { return states_.empty(); }
+  double direction() const { return direction_; } ///< 1 compression, -1 extension
+  const std::vector<dem::SoilState>& states() const { return states_; }
+
+  /// Both positive along the leg: an extension is turned round.
+  template <class Strain, class Stress>
+  dem::Curve curve(Strain&& strain, Stress&& stress) const
+  {
+    dem::Curve c;
+    for (const dem::SoilState& s : states_) {
+      c.strain.push_back(direction_ * strain(s));
+      c.stress.push_back(direction_ * stress(s));
+    }
+    return c;
+  }
+
+private:
+  double direction_ = 1.0;
+  std::vector<dem::SoilState> states_;
+};
+
+/// Names of what is read off one curve.
 struct CurveNames {
   const char *modulus, *yield, *peak;
 };
@@ -140,8 +185,11 @@ struct CurveNames {
 void read_off(std::vector<Finding>& found, const ElementCase& c, const dem::Curve& curve,
               const CurveNames& names)
 {
-  if (const auto E = dem::secant(curve, c.secant_from, c.secant_to)) {
-    found.push_back({names.modulus, "Pa", *E});
+  const auto E = dem::secant(curve, c.secant_from, c.secant_to);
+  if (E) found.push_back({names.modulus, "Pa", *E});
+  if (!(curve.stress.back() > curve.stress.front()) && !(dem::peak(curve).stress > 0.0))
+    return; // stress is taken off: there is no strength in that
+  if (E) {
     if (const auto y = dem::offset_yield(curve, *E, c.yield_offset, c.secant_from)) {
       found.push_back({names.yield, "Pa", y->stress});
       found.push_back({"strain at yield", "-", y->strain});
@@ -158,110 +206,152 @@ void read_off(std::vector<Finding>& found, const ElementCase& c, const dem::Curv
     found.push_back({"minimum after the peak", "Pa", low.stress});
 }
 
-void read_poisson(std::vector<Finding>& found, const ElementCase& c,
-                  const std::vector<ElementRecord>& records)
+using State = const dem::SoilState&;
+double axial_strain(State s)
 {
-  using S = const dem::SoilState&;
-  const auto swelling = curve_of(
-      records, [](S s) { return s.axial_strain; }, [](S s) { return -s.lateral_strain; });
+  return s.axial_strain();
+}
+double volumetric_strain(State s)
+{
+  return s.volumetric_strain();
+}
+double axial_stress(State s)
+{
+  return s.axial();
+}
+double deviator(State s)
+{
+  return s.q();
+}
+double mean_pressure(State s)
+{
+  return s.p();
+}
+
+void read_poisson(std::vector<Finding>& found, const ElementCase& c, const Backbone& leg)
+{
+  const auto swelling =
+      leg.curve(axial_strain, [](State s) { return -s.lateral_strain(); });
   if (const auto nu = dem::secant(swelling, c.secant_from, c.secant_to))
     found.push_back({"Poisson's ratio", "-", *nu});
 }
 
-void read_stress_ratio(std::vector<Finding>& found,
-                       const std::vector<ElementRecord>& records)
+/// In extension q, and with it the ratio, is negative.
+void read_stress_ratio(std::vector<Finding>& found, const Backbone& leg)
 {
   double eta_peak = 0.0;
-  for (const ElementRecord& r : records)
-    if (r.of_leg.p() > 0.0) eta_peak = std::max(eta_peak, r.of_leg.q() / r.of_leg.p());
-  const dem::SoilState& end = records.back().of_leg;
-  const auto degrees = [](double eta) {
-    return dem::friction_angle(eta) * 180.0 / dem::pi;
-  };
+  for (const dem::SoilState& s : leg.states())
+    if (s.p() > 0.0 && std::abs(s.q() / s.p()) > std::abs(eta_peak))
+      eta_peak = s.q() / s.p();
   found.push_back({"largest q/p", "-", eta_peak});
-  if (end.p() > 0.0) {
-    const double eta = end.q() / end.p();
-    found.push_back({"q/p at the end", "-", eta});
-    found.push_back({"friction angle at the end", "degree", degrees(eta)});
+  const dem::SoilState& end = leg.states().back();
+  if (!(end.p() > 0.0)) return;
+  const double eta = end.q() / end.p();
+  found.push_back({"q/p at the end", "-", eta});
+  found.push_back(
+      {"friction angle at the end", "degree", dem::friction_angle(eta) * 180.0 / dem::pi});
+}
+
+void read_resumed(std::vector<Finding>& found, const std::vector<ElementRecord>& records,
+                  std::size_t leg)
+{
+  const auto is_of = [&](const ElementRecord& r) { return r.leg == leg; };
+  const auto first = std::find_if(records.begin(), records.end(), is_of);
+  const auto last = std::find_if(records.rbegin(), records.rend(), is_of);
+  if (first == records.end()) return;
+  const dem::SoilState &a = first->of_leg, &b = last->of_leg;
+  if (a.axial_strain() != b.axial_strain())
+    found.push_back({"secant modulus of the leg", "Pa",
+                     (b.axial() - a.axial()) / (b.axial_strain() - a.axial_strain())});
+}
+
+void read_path(std::vector<Finding>& found, const ElementCase& c, const dem::Leg& leg,
+               const Backbone& way)
+{
+  const bool is_extension = way.direction() < 0.0;
+  switch (leg.kind) {
+  case dem::PathKind::isotropic:
+    read_off(found, c, way.curve(volumetric_strain, mean_pressure),
+             {"bulk modulus", "isotropic yield", "largest p"});
+    break;
+  case dem::PathKind::oedometer:
+    read_off(found, c, way.curve(axial_strain, axial_stress),
+             {"constrained modulus", "oedometric yield", "largest axial stress"});
+    break;
+  case dem::PathKind::compression:
+    read_off(found, c, way.curve(axial_strain, axial_stress),
+             {"Young's modulus", "yield stress", "UCS"});
+    read_poisson(found, c, way);
+    break;
+  case dem::PathKind::tension:
+    read_off(found, c, way.curve(axial_strain, axial_stress),
+             {"Young's modulus", "yield stress in tension", "tensile strength"});
+    break;
+  case dem::PathKind::triaxial:
+    read_off(found, c, way.curve(axial_strain, deviator),
+             is_extension
+                 ? CurveNames{"Young's modulus", "-q at yield in extension", "largest -q"}
+                 : CurveNames{"Young's modulus", "q at yield", "largest q"});
+    read_poisson(found, c, way);
+    read_stress_ratio(found, way);
+    break;
+  case dem::PathKind::radial: // by p, or by q where p stays
+    if (std::isinf(leg.slope))
+      read_off(found, c, way.curve(axial_strain, deviator),
+               {"dq over axial strain", "q at yield", "largest q"});
+    else
+      read_off(found, c, way.curve(volumetric_strain, mean_pressure),
+               {"dp over volumetric strain", "p at yield", "largest p"});
+    read_stress_ratio(found, way);
+    break;
+  case dem::PathKind::axes:
+    for (int a = 0; a < 3; ++a)
+      if (leg.axes[static_cast<std::size_t>(a)].kind == dem::AxisRule::Kind::driven)
+        read_off(found, c,
+                 way.curve([a](State s) { return s.strain[a]; },
+                           [a](State s) { return s.stress[a]; }),
+                 {"modulus along the driven axis", "stress at yield", "largest stress"});
+    read_stress_ratio(found, way);
+    break;
+  case dem::PathKind::resume:
+    break; // read_resumed()
   }
 }
 
 } // namespace
 
-LegResult analyse(const ElementCase& c, const dem::Leg& leg, Outcome outcome,
-                  const std::vector<ElementRecord>& records)
+std::vector<LegResult> analyse(const ElementCase& c, const std::vector<Outcome>& outcomes,
+                               const std::vector<ElementRecord>& records)
 {
-  using S = const dem::SoilState&;
-  LegResult result{name_of(leg), outcome, {}};
-  auto& found = result.findings;
-  const auto axial = [](S s) { return s.axial_strain; };
-  switch (leg.kind) {
-  case dem::PathKind::isotropic:
-    read_off(
-        found, c,
-        curve_of(
-            records, [](S s) { return s.volumetric_strain; }, [](S s) { return s.p(); }),
-        {"bulk modulus", "isotropic yield", "largest p"});
-    break;
-  case dem::PathKind::oedometer:
-    read_off(found, c, curve_of(records, axial, [](S s) { return s.axial; }),
-             {"constrained modulus", "oedometric yield", "largest axial stress"});
-    break;
-  case dem::PathKind::compression:
-    read_off(found, c, curve_of(records, axial, [](S s) { return s.axial; }),
-             {"Young's modulus", "yield stress", "UCS"});
-    read_poisson(found, c, records);
-    break;
-  case dem::PathKind::tension:
-    read_off(
-        found, c,
-        curve_of(
-            records, [](S s) { return -s.axial_strain; }, [](S s) { return -s.axial; }),
-        {"Young's modulus", "yield stress in tension", "tensile strength"});
-    break;
-  case dem::PathKind::triaxial:
-    read_off(found, c, curve_of(records, axial, [](S s) { return s.q(); }),
-             {"Young's modulus", "q at yield", "largest q"});
-    read_poisson(found, c, records);
-    read_stress_ratio(found, records);
-    break;
-  case dem::PathKind::radial: // by p, or by q where p stays
-    if (std::isinf(leg.slope))
-      read_off(found, c, curve_of(records, axial, [](S s) { return s.q(); }),
-               {"dq over axial strain", "q at yield", "largest q"});
-    else
-      read_off(
-          found, c,
-          curve_of(
-              records, [](S s) { return s.volumetric_strain; }, [](S s) { return s.p(); }),
-          {"dp over volumetric strain", "p at yield", "largest p"});
-    read_stress_ratio(found, records);
-    break;
-  case dem::PathKind::resume: {
-    const dem::SoilState &a = records.front().of_leg, &b = records.back().of_leg;
-    if (a.axial_strain != b.axial_strain)
-      found.push_back({"secant modulus of the leg", "Pa",
-                       (b.axial - a.axial) / (b.axial_strain - a.axial_strain)});
-    break;
+  std::vector<LegResult> results;
+  for (std::size_t k = 0; k < outcomes.size(); ++k) {
+    const dem::Leg& leg = c.legs[k];
+    LegResult result{name_of(leg), outcomes[k], {}};
+    if (leg.kind == dem::PathKind::resume) {
+      read_resumed(result.findings, records, k);
+    } else {
+      std::size_t last = k;
+      while (last + 1 < outcomes.size() && c.legs[last + 1].kind == dem::PathKind::resume)
+        ++last;
+      if (last > k) result.name += ", and with leg " + std::to_string(last + 1) + " on";
+      const Backbone way(records, k, last);
+      if (!way.is_empty()) read_path(result.findings, c, leg, way);
+    }
+    results.push_back(std::move(result));
   }
-  }
-  return result;
+  return results;
 }
 
 CriticalStates critical_states(const ElementCase& c, const ElementRecord& last)
 {
-  CriticalStates all;
+  CriticalStates all{c.critical_states, {}};
   all.states.push_back({last.whole.p(), last.whole.q(), last.averages.void_ratio});
-  for (const std::filesystem::path& folder : c.critical_states) {
-    const dem::Table table = dem::read_table(folder / "history.csv");
-    all.states.push_back({table.column("p", "Pa").back(), table.column("q", "Pa").back(),
-                          table.column("void ratio", "-").back()});
-  }
   all.line = dem::critical_state_line(all.states);
   return all;
 }
 
-void write_summary(const std::filesystem::path& file, const ElementSummary& s)
+void write_summary(const std::filesystem::path& file, const ElementCase& c,
+                   const ElementSummary& s)
 {
   std::ostringstream out;
   const auto number = [&](const std::string& name, double value, const char* end = ",\n") {
@@ -278,6 +368,9 @@ void write_summary(const std::filesystem::path& file, const ElementSummary& s)
     comma = ",\n";
   }
   out << "\n  ],\n";
+  number("secant from [-]", c.secant_from);
+  number("secant to [-]", c.secant_to);
+  number("yield offset [-]", c.yield_offset);
   number("p at the end [Pa]", s.last.whole.p());
   number("q at the end [Pa]", s.last.whole.q());
   number("void ratio at the end [-]", s.last.averages.void_ratio);

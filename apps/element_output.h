@@ -33,16 +33,16 @@ struct LegResult {
   std::vector<Finding> findings;
 };
 
-/// @param records those of the leg, the one at its start first
-LegResult analyse(const ElementCase& c, const dem::Leg& leg, Outcome outcome,
-                  const std::vector<ElementRecord>& records);
+/// What each leg was to find; a leg that others resume is read off with them.
+/// @param outcomes of the legs that were begun; @param records of all of them, in order
+std::vector<LegResult> analyse(const ElementCase& c, const std::vector<Outcome>& outcomes,
+                               const std::vector<ElementRecord>& records);
 
 /// The last states of this run and of others, and the line through them if there is one.
 struct CriticalStates {
-  std::vector<dem::CriticalState> states; ///< this run's first
+  std::vector<dem::CriticalState> states; ///< this run's last
   std::optional<dem::StraightLine> line;
 };
-/// @throws InputError when a run of others cannot be read
 CriticalStates critical_states(const ElementCase& c, const ElementRecord& last);
 
 struct ElementSummary {
@@ -53,7 +53,8 @@ struct ElementSummary {
   std::size_t n_particles = 0, n_steps = 0, n_limited = 0;
   double dt = 0.0, seconds = 0.0;
 };
-void write_summary(const std::filesystem::path& file, const ElementSummary& s);
+void write_summary(const std::filesystem::path& file, const ElementCase& c,
+                   const ElementSummary& s);
 void print_summary(const std::filesystem::path& folder, const ElementSummary& s);
 
 } // namespace mergel::apps

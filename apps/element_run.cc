@@ -10,10 +10,13 @@ namespace mergel::apps {
 namespace {
 
 constexpr std::size_t steps_between_checks = 100;
-constexpr std::size_t steps_of_ramp = 300;   ///< in which a leg gathers speed
-constexpr double most_over_driven = 10.0;    ///< of a held axis' rate
-constexpr double least_stiffness = 1e-3;     ///< that the servo counts with, of the first
-constexpr double left_of_tension = 0.05;     ///< below which a specimen is pulled apart
+constexpr std::size_t steps_of_ramp = 300;  ///< in which a leg gathers speed
+constexpr double most_over_driven = 10.0;   ///< of a held axis' rate
+constexpr double least_stiffness = 1e-3;    ///< that the servo counts with, of the first
+constexpr double left_of_tension = 0.05;    ///< below which a specimen is pulled apart
+constexpr double left_of_held = 0.5;        ///< the same of a tension that is to be held
+constexpr double offset_that_counts = 0.01; ///< of the reference pressure
+constexpr std::size_t steps_held = 400; ///< after an approach: a time 16 tau of the servo
 constexpr double tension_that_counts = 0.02; ///< of the reference pressure
 
 } // namespace
@@ -29,6 +32,8 @@ std::string sentence_of(Outcome outcome)
     return "the stress fell back on its way to the goal: the path met an unstable point";
   case Outcome::gave_up:
     return "the strain limit was reached before the goal";
+  case Outcome::broke_off:
+    return "the run went unstable and stopped in this leg";
   case Outcome::goes_on:
     break;
   }
@@ -88,16 +93,38 @@ dem::Vec3 ElementRun::mean_stress() const
              : stress();
 }
 
+dem::SoilState ElementRun::soil(const dem::Vec3& sigma) const
+{
+  const dem::Vec3& size_0 = state_.course.size_0;
+  return dem::soil_state(sigma, state_.rock.cell.size,
+                         size_0.isZero() ? state_.size_0 : size_0);
+}
+
 void ElementRun::set_out(std::size_t leg)
 {
   ElementState& s = state_;
-  const auto now = dem::soil_state(stress(), s.rock.cell.size,
-                                   s.course.size_0.isZero() ? s.size_0 : s.course.size_0);
-  s.course = dem::set_out(case_.legs[leg], s.course, now, s.rock.cell.size);
+  const dem::Leg& l = case_.legs[leg];
+  s.course = dem::set_out(l, s.course, soil(stress()), s.rock.cell.size);
+  s.course.is_approaching =
+      l.kind != dem::PathKind::resume &&
+      s.course.offset.cwiseAbs().maxCoeff() > offset_that_counts * case_.reference_pressure;
   s.leg = leg;
-  s.n_in_leg = 0;
+  s.n_in_leg = s.n_held = 0;
   s.farthest = 0.0;
   s.tension = 0.0;
+}
+
+/// Change what the leg shall hold as fast as the driven strain would build it up; then hold,
+/// and set out anew from there.
+void ElementRun::approach(double rate)
+{
+  ElementState& s = state_;
+  dem::Course& c = s.course;
+  const double change = s.servo.stiffness.minCoeff() * rate * s.dt;
+  c.remaining = std::max(0.0, c.remaining - change / c.offset.cwiseAbs().maxCoeff());
+  if (c.remaining > 0.0 || ++s.n_held < steps_held) return;
+  c = dem::set_out(case_.legs[s.leg], c, soil(stress()), s.rock.cell.size);
+  s.n_in_leg = 0;
 }
 
 double ElementRun::driven_rate(const dem::SoilState& now) const
@@ -115,13 +142,14 @@ void ElementRun::step()
     dem::check_overlaps(s.rock);
   }
   const dem::Vec3 sigma = stress();
-  const auto now = dem::soil_state(sigma, s.rock.cell.size, s.course.size_0);
+  const dem::SoilState now = soil(sigma);
   const double full = driven_rate(now);
   const auto n = static_cast<double>(std::min(s.n_in_leg + 1, steps_of_ramp));
   const double rate = full * n / steps_of_ramp;
   s.greatest_rate = std::max(s.greatest_rate, rate);
   s.servo.limit = most_over_driven * full;
-  const dem::Vec3 rates = s.servo.rates(s.course.order(now, rate), sigma, s.dt);
+  const dem::CellOrder order = s.course.order(now, rate);
+  const dem::Vec3 rates = s.servo.rates(order, sigma, s.dt);
   dem::advance(s.rock, s.dt_before, s.dt, [&](double) { s.rock.cell.rate = rates; });
   s.dt_before = s.dt;
   s.time += s.dt;
@@ -129,32 +157,47 @@ void ElementRun::step()
   ++s.n_steps;
   ++s.n_in_leg;
 
-  const dem::Vec3 after = stress();
-  s.stress_sum += after;
+  s.stress_sum += stress();
+  for (int a = 0; a < 3; ++a) {
+    const dem::AxisOrder& axis = order[static_cast<std::size_t>(a)];
+    if (axis.holds_stress) s.held_sum[a] += axis.stress;
+  }
   ++s.n_stress;
+  if (s.course.is_approaching) approach(rate);
+}
+
+/// Whether an axis cannot be drawn at any more, which bore tension: the driven one, drawn
+/// out further, or one that is to hold a tension and finds too little.
+bool ElementRun::is_pulled_apart() const
+{
+  const ElementState& s = state_;
+  const double counts = tension_that_counts * case_.reference_pressure;
+  const double pull = -s.course.driven(soil(mean_stress()));
+  if (s.course.direction < 0.0 && s.tension > counts && pull < left_of_tension * s.tension)
+    return true;
+  const dem::Vec3 wanted = s.held_sum / static_cast<double>(s.n_stress),
+                  borne = mean_stress();
+  for (int a = 0; a < 3; ++a)
+    if (wanted[a] > counts && borne[a] < left_of_held * wanted[a]) return true;
+  return false;
 }
 
 Outcome ElementRun::outcome() const
 {
   const ElementState& s = state_;
-  const auto at_once = dem::soil_state(stress(), s.rock.cell.size, s.course.size_0);
-  if (s.course.has_reached_goal(at_once)) return Outcome::done;
+  if (!s.course.is_approaching && s.course.has_reached_goal(soil(stress())))
+    return Outcome::done;
   if (!record_is_due()) return Outcome::goes_on;
 
-  const dem::Vec3 mean = mean_stress();
-  const auto now = dem::soil_state(mean, s.rock.cell.size, s.course.size_0);
-  // An axis along which the rock was in tension and is being drawn out further.
-  const double pull = -s.course.driven(now);
-  if (s.course.direction < 0.0 &&
-      s.tension > tension_that_counts * case_.reference_pressure &&
-      pull < left_of_tension * s.tension)
-    return Outcome::pulled_apart;
-  if (!dem::is_strain(s.course.quantity)) {
+  if (is_pulled_apart()) return Outcome::pulled_apart;
+  const dem::SoilState now = soil(mean_stress());
+  if (!s.course.is_approaching && !dem::is_strain(s.course.quantity)) {
     const double fallen = s.farthest - s.course.progress(now);
     if (s.farthest > 0.05 && fallen > case_.reversal * s.farthest) return Outcome::reversed;
   }
-  const double strain = std::max({std::abs(now.axial_strain), std::abs(now.lateral_strain),
-                                  std::abs(now.volumetric_strain)});
+  const auto whole = dem::soil_state(stress(), s.rock.cell.size, s.size_0);
+  const double strain =
+      std::max(whole.strain.cwiseAbs().maxCoeff(), std::abs(whole.volumetric_strain()));
   return strain > case_.strain_limit ? Outcome::gave_up : Outcome::goes_on;
 }
 
@@ -164,11 +207,12 @@ ElementRecord ElementRun::record()
   ElementRecord r;
   r.time = s.time;
   r.leg = s.leg;
+  r.is_approach = s.course.is_approaching;
   r.averages = dem::cell_averages(s.rock);
   const dem::Vec3 sigma = r.averages.stress.diagonal();
   r.whole = dem::soil_state(sigma, s.rock.cell.size, s.size_0);
-  r.of_leg = dem::soil_state(sigma, s.rock.cell.size,
-                             s.course.size_0.isZero() ? s.size_0 : s.course.size_0);
+  r.of_leg = soil(sigma);
+  r.driven_strain = s.course.driven_strain(r.of_leg);
   r.broken = s.rock.domain.sum(s.rock.losses.broken);
   for (std::size_t k = 0; k < dem::n_break_modes; ++k)
     r.broken_by[k] = s.rock.domain.sum(s.rock.losses.broken_by[k]);
@@ -183,11 +227,12 @@ ElementRecord ElementRun::record()
   r.unbalanced = dem::unbalanced_ratio(s.rock);
 
   if (s.n_stress > 0) {
-    const auto mean = dem::soil_state(mean_stress(), s.rock.cell.size, s.size_0);
+    const dem::SoilState mean = soil(mean_stress());
     s.tension = std::max(s.tension, -s.course.driven(mean));
     s.farthest = std::max(s.farthest, s.course.progress(r.of_leg));
   }
   s.stress_sum.setZero();
+  s.held_sum.setZero();
   s.n_stress = 0;
   s.since_record = 0.0;
   if (std::abs(r.energy_error) > 0.01)

@@ -12,7 +12,8 @@ enum class Outcome {
   done,         ///< the goal was reached
   pulled_apart, ///< the specimen failed in tension: nothing is left to pull at
   reversed,     ///< the stress fell back on its way: the path met an unstable point
-  gave_up       ///< the strain limit came first
+  gave_up,      ///< the strain limit came first
+  broke_off     ///< the run went unstable and stopped
 };
 std::string sentence_of(Outcome outcome);
 
@@ -27,9 +28,11 @@ struct ElementState {
   std::size_t leg = 0;                  ///< from 0
   std::size_t n_steps = 0, n_in_leg = 0;
   double since_record = 0.0; ///< driven strain [-]
+  std::size_t n_held = 0;    ///< steps in which all is held before the leg is driven
   double farthest = 0.0;     ///< greatest progress of the leg [-]
   double tension = 0.0;      ///< greatest tension along the driven axis in the leg [Pa]
   dem::Vec3 stress_sum = dem::Vec3::Zero(); ///< of the steps since the last record [Pa]
+  dem::Vec3 held_sum = dem::Vec3::Zero(); ///< what held axes should bear, the same way [Pa]
   std::size_t n_stress = 0;
   double gross_work = 0.0; ///< of the cell, by its magnitude from record to record [J]
   double last_work = 0.0;  ///< of the cell at the last record [J]
@@ -43,7 +46,9 @@ struct ElementRecord {
   double time = 0.0;
   std::size_t leg = 0;   ///< from 0
   dem::SoilState whole;  ///< strains from the start of the test
-  dem::SoilState of_leg; ///< strains from the start of the leg
+  dem::SoilState of_leg; ///< strains from the start of the leg, or of that which it resumes
+  bool is_approach = false;   ///< before the leg is driven; its strains count from later on
+  double driven_strain = 0.0; ///< of the leg: axial, lateral or volumetric [-]
   dem::CellAverages averages;
   std::size_t broken = 0;
   std::array<std::size_t, dem::n_break_modes> broken_by{};
@@ -57,8 +62,11 @@ public:
   /// Collective, as is all below.
   ElementRun(const ElementCase& c, ElementRock rock, const dem::PairMaterials& materials);
 
-  /// Set out on the leg of this number.
+  /// Set out on the leg of this number. Stresses that it holds may be elsewhere: the steps
+  /// then bring them there first, at the rate of the test, while is_approaching(); strains
+  /// of the leg count from the end of that.
   void set_out(std::size_t leg);
+  bool is_approaching() const { return state_.course.is_approaching; }
   /// One step.
   void step();
   /// Whether the leg's goal is met, the rock failed, or it goes on. Failure is looked for
@@ -71,6 +79,9 @@ public:
   double progress() const { return state_.farthest; }
 
 private:
+  dem::SoilState soil(const dem::Vec3& sigma) const; ///< strains of the leg
+  void approach(double rate);
+  bool is_pulled_apart() const;
   dem::Vec3 stress() const;
   dem::Vec3 mean_stress() const;
   double driven_rate(const dem::SoilState& now) const;

@@ -6,16 +6,19 @@
 #include "dem/io/history.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 namespace mergel::apps {
 
 const char* const forms_of_leg =
     "isotropic | oedometer | triaxial [at STRESS] | radial dq/dp = NUMBER | compression | "
-    "tension | resume | unload | reload | unload-reload, then `to` and where it ends: p, "
-    "q, "
-    "axial stress, lateral stress, axial strain or volumetric strain = VALUE";
+    "tension | axes x = RULE, y = RULE, z = RULE (one `driven`, the others `fixed` or a "
+    "STRESS) | resume | unload | reload | unload-reload, then `to` and where it ends: p, "
+    "q, axial stress, lateral stress, axial strain, volumetric strain, x stress, y stress, "
+    "x strain or y strain = VALUE";
 
 namespace {
 
@@ -24,11 +27,17 @@ using dem::PathKind;
 using dem::Quantity;
 
 const std::vector<std::pair<std::string, PathKind>> kinds{
-    {"isotropic", PathKind::isotropic},     {"oedometer", PathKind::oedometer},
-    {"triaxial", PathKind::triaxial},       {"radial", PathKind::radial},
-    {"compression", PathKind::compression}, {"tension", PathKind::tension},
-    {"resume", PathKind::resume},           {"unload", PathKind::resume},
-    {"reload", PathKind::resume},           {"unload-reload", PathKind::resume}};
+    {"isotropic", PathKind::isotropic},
+    {"oedometer", PathKind::oedometer},
+    {"triaxial", PathKind::triaxial},
+    {"radial", PathKind::radial},
+    {"compression", PathKind::compression},
+    {"tension", PathKind::tension},
+    {"axes", PathKind::axes},
+    {"resume", PathKind::resume},
+    {"unload", PathKind::resume},
+    {"reload", PathKind::resume},
+    {"unload-reload", PathKind::resume}};
 
 const std::vector<std::pair<std::string, Quantity>> quantities{
     {"p", Quantity::p},
@@ -36,7 +45,11 @@ const std::vector<std::pair<std::string, Quantity>> quantities{
     {"axial stress", Quantity::axial_stress},
     {"lateral stress", Quantity::lateral_stress},
     {"axial strain", Quantity::axial_strain},
-    {"volumetric strain", Quantity::volumetric_strain}};
+    {"volumetric strain", Quantity::volumetric_strain},
+    {"x stress", Quantity::x_stress},
+    {"y stress", Quantity::y_stress},
+    {"x strain", Quantity::x_strain},
+    {"y strain", Quantity::y_strain}};
 
 template <class T>
 const T& chosen(const std::string& word, const std::vector<std::pair<std::string, T>>& from,
@@ -82,6 +95,31 @@ std::pair<std::string, std::string> assignment(const std::string& text,
           std::string(trimmed(text.substr(at + 1)))};
 }
 
+/// "x = fixed, y = 0.5 MPa, z = driven"
+std::array<dem::AxisRule, 3> read_rules(const std::string& text)
+{
+  std::array<dem::AxisRule, 3> rules;
+  std::string seen;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const auto [axis, rule] = assignment(std::string(trimmed(part)), "z = driven");
+    if (axis.size() != 1 || axis < "x" || axis > "z")
+      throw InputError("an axis is x, y or z, not " + in_quotes(axis));
+    if (seen.find(axis) != std::string::npos)
+      throw InputError("axis " + axis + " has two rules");
+    seen += axis;
+    dem::AxisRule& r = rules[static_cast<std::size_t>(axis[0] - 'x')];
+    if (rule == "driven")
+      r.kind = dem::AxisRule::Kind::driven;
+    else if (rule != "fixed")
+      r = {dem::AxisRule::Kind::held, stress(rule)};
+  }
+  if (seen.size() != 3)
+    throw InputError("expected a rule for each axis, such as " +
+                     in_quotes("axes x = fixed, y = 0.5 MPa, z = driven"));
+  return rules;
+}
+
 /// What stands between the kind and "to".
 void read_details(Leg& leg, const std::string& kind, const std::string& details)
 {
@@ -95,6 +133,8 @@ void read_details(Leg& leg, const std::string& kind, const std::string& details)
   } else if (kind == "triaxial" && details.starts_with("at ")) {
     leg.has_lateral = true;
     leg.lateral = stress(std::string(trimmed(details.substr(3))));
+  } else if (kind == "axes") {
+    leg.axes = read_rules(details);
   } else if (!details.empty())
     throw InputError(in_quotes(details) + " is not understood after " + in_quotes(kind) +
                      "; a leg reads: " + forms_of_leg);
@@ -119,7 +159,7 @@ std::vector<Leg> read_legs(const std::string& text)
       assignment(std::string(trimmed(padded.substr(to + 4))), "axial strain = 2 %");
   leg.quantity = chosen(name, quantities, "the quantity");
   leg.goal = dem::is_strain(leg.quantity) ? strain(value) : stress(value);
-  leg.check();
+  if (leg.kind != PathKind::resume) leg.check(); // else by the leg that it resumes
   if (kind != "unload-reload") return {leg};
   Leg back = leg;
   back.returns = true;
@@ -132,6 +172,15 @@ std::string name_of(const Leg& leg)
                        return k.second == leg.kind;
                      })->first;
   if (leg.kind == PathKind::radial) text += " dq/dp = " + dem::shortest(leg.slope);
+  if (leg.kind == PathKind::axes)
+    for (std::size_t a = 0; a < 3; ++a) {
+      using Kind = dem::AxisRule::Kind;
+      const dem::AxisRule& r = leg.axes[a];
+      text += (a > 0 ? ", " : " ") + std::string(1, "xyz"[a]) + " = " +
+              (r.kind == Kind::driven  ? "driven"
+               : r.kind == Kind::fixed ? "fixed"
+                                       : with_unit(r.stress, "Pa", "MPa"));
+    }
   if (leg.has_lateral) text += " at " + with_unit(leg.lateral, "Pa", "MPa");
   if (leg.returns) return text + " to where it was unloaded";
   text += " to " + std::find_if(quantities.begin(), quantities.end(), [&](const auto& q) {

@@ -4,6 +4,7 @@
 ///     set leg 2 = triaxial to axial strain = 2 %
 ///     set leg 3 = unload-reload to q = 0.2 MPa
 ///     set leg 4 = resume to axial strain = 15 %
+///     set leg 5 = axes x = fixed, y = 0.5 MPa, z = driven to axial strain = 20 %
 #pragma once
 
 #include "dem/stress_path.h"

@@ -42,7 +42,7 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
   $at["leg [-]"] == 2 { x += $at["lateral stress x [Pa]"]; y += $at["lateral stress y [Pa]"]; ++n }
   END { exit !(n > 10 && x / n > 0.99e6 && x / n < 1.01e6 && y / n > 0.99e6 && y / n < 1.01e6) }' a/history.csv ||
   fail "the lateral stress is not held"
-head -1 a/history.csv | awk -F, '{ n = NF } END { exit !(n == 42) }' || fail "the header of history.csv"
+head -1 a/history.csv | awk -F, '{ n = NF } END { exit !(n == 51) }' || fail "the header of history.csv"
 
 "$mergel" element a/resolved.prm --output b >b.log || fail "from resolved.prm: $(cat b.log)"
 cmp a/history.csv b/history.csv || fail "a repeated run differs"
@@ -67,6 +67,22 @@ run "isotropic to p = 0.5 MPa" "triaxial to q = 12 MPa" "compression to axial st
 grep -q 'unstable point' f/summary.json || fail "an unstable path is not said: $(tail -5 f.log)"
 [ "$(grep -c '"leg":' f/summary.json)" -eq 2 ] || fail "the test went on after it failed"
 
+# Sides that cannot hold their tension fail as an axis does that is pulled.
+run "triaxial at -3 MPa to axial strain = 1 %" "" "" "" h --set "Bond/softening displacement=0.0004 mm" \
+  --set "Bond/softening rotation=0.004 rad" || fail "lateral tension: $(cat h.log)"
+grep -q 'failed in tension' h/summary.json || fail "sides pulled apart are not said: $(tail -5 h.log)"
+# A leg that others resume is read off with them: the strength lies in the last of three.
+run "compression to axial strain = 0.2 %" "unload-reload to axial stress = 0.5 MPa" \
+  "resume to axial strain = 0.7 %" "" i || fail "unloaded and reloaded: $(cat i.log)"
+awk -v c="$(value c UCS)" -v i="$(value i UCS)" 'BEGIN { exit !(i > 0.97 * c && i < 1.03 * c) }' ||
+  fail "UCS $(value c UCS), by way of unloading $(value i UCS)"
+# What a leg holds is brought there first, and the strain counts from there.
+run "isotropic to p = 1 MPa" "triaxial at 0.5 MPa to axial strain = 0.1 %" "" "" j || fail "approach: $(cat j.log)"
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  $at["leg [-]"] == 2 && $at["axial strain of the leg [-]"] > 2e-4 {
+    s = $at["lateral stress x [Pa]"]; if (s < 0.48e6 || s > 0.52e6) exit 1; ++n }
+  END { exit !(n > 2) }' j/history.csv || fail "the lateral stress was not brought to 0.5 MPa first"
+
 # Refused, in one line, before anything is written.
 refused() {
   local what=$1
@@ -82,6 +98,8 @@ refused 'leg 2 = .*no `to`' "isotropic to p = 1 MPa" "triaxial" "" "" g
 refused 'leg 1 = .*Pa' "isotropic to p = 1 mm" "" "" "" g
 refused 'does not change along the leg' "isotropic to q = 1 MPa" "" "" "" g
 refused 'leg 3 = .*the leg before is empty' "isotropic to p = 1 MPa" "" "isotropic to p = 2 MPa" "" g
+refused 'must be negative' "tension to axial stress = 1 MPa" "" "" "" g
+refused 'leg 2 = .*does not change along the leg' "isotropic to p = 1 MPa" "unload to q = 1 MPa" "" "" g
 refused 'Loading/strain limit = 0.85' "isotropic to p = 1 MPa" "" "" "" g --set "Loading/strain limit=0.85"
 refused 'Specimen/porosity' "isotropic to p = 1 MPa" "" "" "" g --set "Specimen/porosity=0.3"
 

@@ -37,7 +37,9 @@ TEST_CASE("A leg reads as it is written", "[unit][apps]")
   CHECK(both[0].goal == 0.2e6);
   CHECK(both[1].returns);
   for (const char* text : {"isotropic to p = 5 MPa", "radial dq/dp = 1.5 to p = 8 MPa",
-                           "triaxial at 0.25 MPa to axial strain = 15 %"})
+                           "triaxial at 0.25 MPa to axial strain = 15 %",
+                           "axes x = fixed, y = 0.5 MPa, z = driven to q = 2 MPa",
+                           "axes x = driven, y = fixed, z = fixed to x strain = 1 %"})
     CHECK(name_of(one(text)) == text);
 }
 
@@ -57,6 +59,11 @@ TEST_CASE("A leg that is not understood says what is expected", "[unit][apps]")
   CHECK_THAT(message("isotropic to p = 5"), Contains("Pa"));
   CHECK_THAT(message("isotropic to axial strain = 5 MPa"), Contains("number"));
   CHECK_THAT(message("isotropic to r = 5 MPa"), Contains("unknown"));
+  CHECK_THAT(message("axes x = fixed, y = 1 MPa to q = 1 MPa"), Contains("each axis"));
+  CHECK_THAT(message("axes x = fixed, x = fixed, z = driven to q = 1 MPa"),
+             Contains("axis x has two rules"));
+  CHECK_THAT(message("axes x = fixed, y = fixed, z = fixed to q = 1 MPa"),
+             Contains("one axis must be driven"));
   CHECK_THAT(message("triaxial with 2 MPa to q = 1 MPa"), Contains("not understood"));
   CHECK_THAT(message("radial to p = 1 MPa"), Contains("dq/dp = 1.5"));
   CHECK_THAT(message("radial dq/dp = 3 to lateral stress = 1 MPa"),
