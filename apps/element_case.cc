@@ -15,13 +15,7 @@ namespace mergel::apps {
 
 namespace {
 
-constexpr std::size_t most_legs = 12;
 constexpr double skin_share = 0.3; ///< of the smallest grain
-
-std::string key_of_leg(std::size_t k)
-{
-  return "leg " + std::to_string(k + 1);
-}
 
 void declare_size_effect(CaseFile& file, SizeEffect& e)
 {
@@ -129,6 +123,11 @@ dem::CriticalState last_state(const CaseFile& file, const std::filesystem::path&
 
 } // namespace
 
+std::string key_of_leg(std::size_t k)
+{
+  return "leg " + std::to_string(k + 1);
+}
+
 double SizeEffect::factor(double B) const
 {
   if (!is_on || std::abs(B / reference_width - 1.0) < 0.01) return 1.0;
@@ -149,6 +148,7 @@ void declare(CaseFile& file, ElementCase& c)
   const auto section = file.section("Output");
   file.number("record every", c.record_every, inside(0.0, 0.1),
               "Driven strain from one line of history.csv to the next.");
+  declare(file, c.checkpoints);
 }
 
 void complete(CaseFile& file, ElementCase& c)
@@ -161,6 +161,7 @@ void complete(CaseFile& file, ElementCase& c)
   if (c.secant_to <= c.secant_from)
     file.refuse("Analysis", "secant to", "must be beyond `secant from`");
 
+  complete(file, c.checkpoints);
   bool is_over = false;
   for (std::size_t k = 0; k < most_legs; ++k) {
     if (c.leg_texts[k].empty()) {

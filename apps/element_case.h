@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/case_file.h"
+#include "apps/keeper.h"
 #include "apps/legs.h"
 #include "apps/material_keys.h"
 #include "apps/specimen_keys.h"
@@ -47,7 +48,12 @@ struct ElementCase {
   std::vector<dem::CriticalState> critical_states; ///< last states of other runs
 
   double record_every = 2e-4; ///< strain [-]
+  CheckpointKey checkpoints;
 };
+
+constexpr std::size_t most_legs = 12;
+/// "leg 1" of 0.
+std::string key_of_leg(std::size_t k);
 
 void declare(CaseFile& file, ElementCase& c);
 

@@ -55,7 +55,7 @@ inline constexpr std::array<Job, 6> jobs{{
     {"bench", "Measure what a step costs on this machine.", help_bench, read_bench},
     {"bond", "Drive one bonded pair of spheres along any path.", help_bond, run_bond},
     {"element", "Lead a periodic cell of rock along any path of stress and strain.",
-     help_element, run_element},
+     help_element, run_element, true},
     {"info", "Say what a sample, checkpoint or results folder is.", help_info, read_info},
     {"pile", "Install a pile in a coupled chamber of rock.", help_pile, run_pile, true},
     {"sample", "Make a specimen and write it to a file for later runs.", help_sample,

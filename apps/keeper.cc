@@ -63,6 +63,23 @@ Cadence to_cadence(const std::string& text)
   return every;
 }
 
+void declare(CaseFile& file, CheckpointKey& key)
+{
+  file.text(
+      "checkpoint every", key.text,
+      "Wall-clock time or steps between checkpoints (10 min, 5000 steps), or never; the "
+      "last two are kept.");
+}
+
+void complete(const CaseFile& file, CheckpointKey& key)
+{
+  try {
+    key.every = to_cadence(key.text);
+  } catch (const InputError& e) {
+    file.refuse("Output", "checkpoint every", e.what());
+  }
+}
+
 double to_walltime(const std::string& text)
 {
   const InputError wrong(

@@ -2,6 +2,7 @@
 /// run is told to stop.
 #pragma once
 
+#include "apps/case_file.h"
 #include "apps/signals.h"
 #include "dem/io/checkpoint.h"
 
@@ -19,6 +20,16 @@ struct Cadence {
 
 /// "10 min", "5000 steps" or "never". @throws InputError saying what is expected
 Cadence to_cadence(const std::string& text);
+
+/// Key `Output/checkpoint every`.
+struct CheckpointKey {
+  std::string text = "10 min";
+  Cadence every; ///< the same, set by complete()
+};
+/// In the open section. @pre file.section("Output") lives
+void declare(CaseFile& file, CheckpointKey& key);
+/// @throws InputError naming file, line and key
+void complete(const CaseFile& file, CheckpointKey& key);
 
 /// "4h", "30 min", "90 s" or "4:00:00", as --walltime takes it [s]. @throws InputError
 double to_walltime(const std::string& text);

@@ -472,42 +472,6 @@ void check_new_end(const CaseFile& file, const PileCase& c, const Restart& resta
           "for one of the two: restore it, or take an older checkpoint");
 }
 
-/// The folder of the run.
-OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart)
-{
-  std::error_code error;
-  const auto is_output = [&](const std::filesystem::path& folder) {
-    return std::filesystem::equivalent(options.output, folder, error);
-  };
-  if (restart && is_output(restart->folder)) return {options.output, Earlier::go_on};
-  if (restart)
-    return {options.output, options.overwrite ? Earlier::overwrite : Earlier::keep};
-  return folder_to_begin_in(options);
-}
-
-/// Bring the checkpoint into the folder where the run goes on, if that is another: a run that
-/// ends before its own first one can be restarted from there too. Returns where it is.
-std::filesystem::path bring_along(const std::filesystem::path& checkpoint,
-                                  const std::filesystem::path& folder)
-{
-  const std::filesystem::path there = folder / checkpoint.filename();
-  on_first_rank([&] {
-    std::error_code error;
-    if (std::filesystem::equivalent(checkpoint, there, error)) return;
-    dem::replace_file(there, [&](const std::filesystem::path& file) {
-      std::error_code failed;
-      std::filesystem::copy_file(checkpoint, file,
-                                 std::filesystem::copy_options::overwrite_existing, failed);
-      if (failed)
-        throw NumericalError(there.string() + ": the checkpoint cannot be brought along: " +
-                             failed.message() +
-                             ". Check the permissions of both folders and the free space, "
-                             "or go on in the folder where it is, without --output.");
-    });
-  });
-  return there;
-}
-
 /// Files that the run reads after the folder was looked at.
 std::vector<std::filesystem::path> inputs_of(const JobOptions& options, const PileCase& c,
                                              const std::optional<Restart>& restart)
@@ -605,7 +569,7 @@ int run_pile(const JobOptions& options)
   Keeper keeper({.folder = folder.path(),
                  .job = "pile",
                  .case_text = file.resolved_text(),
-                 .every = c.checkpoints,
+                 .every = c.checkpoints.every,
                  .end = start + options.walltime,
                  .restarted_from = restart ? restart->file : std::filesystem::path{}});
   bool is_driving = restart && Installation::is_in(restart->checkpoint.state);

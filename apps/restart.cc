@@ -3,6 +3,7 @@
 #include "apps/ranks.h"
 #include "apps/words.h"
 #include "dem/error.h"
+#include "dem/io/atomic_file.h"
 
 #include <algorithm>
 #include <sstream>
@@ -188,6 +189,37 @@ OutputFolder folder_to_begin_in(const JobOptions& options)
   if (begins_again) require_unfinished(options.output);
   return {options.output,
           options.overwrite || begins_again ? Earlier::overwrite : Earlier::keep};
+}
+
+OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart)
+{
+  std::error_code error;
+  const auto is_output = [&](const fs::path& folder) {
+    return fs::equivalent(options.output, folder, error);
+  };
+  if (restart && is_output(restart->folder)) return {options.output, Earlier::go_on};
+  if (restart)
+    return {options.output, options.overwrite ? Earlier::overwrite : Earlier::keep};
+  return folder_to_begin_in(options);
+}
+
+fs::path bring_along(const fs::path& checkpoint, const fs::path& folder)
+{
+  const fs::path there = folder / checkpoint.filename();
+  on_first_rank([&] {
+    std::error_code error;
+    if (fs::equivalent(checkpoint, there, error)) return;
+    dem::replace_file(there, [&](const fs::path& file) {
+      std::error_code failed;
+      fs::copy_file(checkpoint, file, fs::copy_options::overwrite_existing, failed);
+      if (failed)
+        throw NumericalError(there.string() + ": the checkpoint cannot be brought along: " +
+                             failed.message() +
+                             ". Check the permissions of both folders and the free space, "
+                             "or go on in the folder where it is, without --output.");
+    });
+  });
+  return there;
 }
 
 std::string report(const Restart& restart, const std::vector<CaseFile::Change>& changed)

@@ -46,6 +46,16 @@ std::vector<CaseFile::Change> check_case(const CaseFile& file, const Restart& re
 /// @throws InputError when the earlier run was finished or has a checkpoint
 OutputFolder folder_to_begin_in(const JobOptions& options);
 
+/// The folder of the run: that of the checkpoint, or one to begin in.
+/// @throws InputError as folder_to_begin_in()
+OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart);
+
+/// Bring the checkpoint into the folder where the run goes on, if that is another: a run that
+/// ends before its own first one can be restarted from there too. Returns where it is.
+/// Collective.
+std::filesystem::path bring_along(const std::filesystem::path& checkpoint,
+                                  const std::filesystem::path& folder);
+
 /// What the user should know: where the run goes on, what could not be read, what has
 /// changed.
 std::string report(const Restart& restart, const std::vector<CaseFile::Change>& changed);
