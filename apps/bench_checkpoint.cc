@@ -25,17 +25,17 @@ void measure_checkpoint(const WorkloadSpec& spec, const std::filesystem::path& f
     dem::write_checkpoint(file, {MERGEL_VERSION, "bench", "workload", "", w.n_steps, 0.0},
                           std::move(state), domain);
     const double written = dem::wall_clock();
-    const dem::Checkpoint c = dem::read_checkpoint(file);
+    dem::Checkpoint c = dem::read_checkpoint(file);
     const double read = dem::wall_clock();
+    double n_pairs = 0.0; // that have a history
+    for (const char* pairs : {"bond_pairs", "contact_pairs"})
+      n_pairs += static_cast<double>(c.state.arrays().at(pairs).rows());
     dem::take(c.state, w.rock);
     const double taken = dem::wall_clock();
     dem::share_out(w.rock, MPI_COMM_WORLD);
     dem::rebuild_lists(w.rock);
     const double shared = dem::wall_clock();
     const auto bytes = static_cast<double>(std::filesystem::file_size(file));
-    double n_pairs = 0.0; // that have a history
-    for (const char* pairs : {"bond_pairs", "contact_pairs"})
-      n_pairs += static_cast<double>(c.state.arrays().at(pairs).rows());
     std::cout << "checkpoint of " << n << " particles and " << n_pairs
               << " pairs: " << 1e-6 * bytes << " MB, " << bytes / n << " bytes a particle, "
               << bytes / (n + n_pairs) << " a particle and pair; write "

@@ -284,7 +284,7 @@ void drive_bond(const JobOptions& options)
   declare(file, c);
   read_case(file, options, std::nullopt);
   const auto path = corners(file, c);
-  const OutputFolder folder = folder_to_begin_in(options);
+  OutputFolder folder = folder_to_begin_in(options);
   std::vector<std::filesystem::path> inputs;
   if (options.restart.empty()) inputs.push_back(options.case_file);
   if (!c.path.empty()) inputs.push_back(c.path);

@@ -519,6 +519,13 @@ void CaseFile::refuse(const std::string& section, const std::string& key,
   throw InputError(impl_->place(k) + " = " + k.value + ": " + message);
 }
 
+void CaseFile::resolve(const std::string& section, const std::string& key,
+                       const std::string& value)
+{
+  impl_->at(section, key); // it is there, and a case was read
+  impl_->find(section, key)->resolved = value;
+}
+
 bool CaseFile::is_given(const std::string& section, const std::string& key) const
 {
   const Key& k = impl_->at(section, key);

@@ -163,6 +163,11 @@ public:
   [[noreturn]] void refuse(const std::string& section, const std::string& key,
                            const std::string& message) const;
 
+  /// Let the resolved case hold this value of a text that was found elsewhere.
+  /// @pre read() was called
+  void resolve(const std::string& section, const std::string& key,
+               const std::string& value);
+
   /// Whether the user gave this key (file or --set), and its condition holds.
   /// @pre read() was called
   bool is_given(const std::string& section, const std::string& key) const;

@@ -36,8 +36,9 @@ struct CoupledRock {
   CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarField far_field,
               coupling::Interface interface);
   /// As it was when put() wrote the state, with the piles that it had then; collective.
+  /// The state is freed on the way.
   /// @throws InputError when the state is of another rock
-  CoupledRock(const RockCase& c, const dem::State& state, std::vector<dem::PileWall> piles,
+  CoupledRock(const RockCase& c, dem::State& state, std::vector<dem::PileWall> piles,
               fem::FarField far_field, coupling::Interface interface);
   CoupledRock(const CoupledRock&) = delete;
   CoupledRock& operator=(const CoupledRock&) = delete;

@@ -73,7 +73,7 @@ void CoupledRock::put(dem::State& state) const
   state.add_common("x_0", std::move(x), 3);
 }
 
-CoupledRock::CoupledRock(const RockCase& c, const dem::State& state,
+CoupledRock::CoupledRock(const RockCase& c, dem::State& state,
                          std::vector<dem::PileWall> piles, fem::FarField field,
                          coupling::Interface interface)
     : CoupledRock(c, std::move(field), std::move(interface))

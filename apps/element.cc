@@ -7,7 +7,9 @@
 #include "apps/ranks.h"
 #include "apps/restart.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <optional>
 
@@ -24,31 +26,82 @@ std::string words(const ElementRecord& r)
   return out.str();
 }
 
-/// Follow one leg to its end and append its records, the state at its start first.
-Outcome follow(ElementRun& run, std::size_t leg, const std::string& name,
-               std::vector<ElementRecord>& records, ElementHistory* history,
-               ElementPictures& pictures)
-{
-  run.set_out(leg);
-  const auto add = [&](const ElementRecord& r) {
+/// A test under way: the rock, what it left on the disk and what is known of it.
+struct Test {
+  std::optional<ElementRun> run;
+  std::optional<ElementHistory> history; ///< on the first rank
+  std::optional<ElementPictures> pictures;
+  std::vector<ElementRecord> records;
+  std::vector<Outcome> outcomes; ///< of the leg under way: broke_off
+  double seconds_before = 0.0;   ///< that earlier runs took
+
+  void add(const ElementRecord& r)
+  {
     records.push_back(r);
     if (history) history->add(r);
-  };
-  add(run.record());
-  Progress progress("leg " + std::to_string(leg + 1) + ", " + name);
+  }
+};
+
+/// Follow one leg to its end, from its start or the middle, and append its records, the state
+/// at its start first.
+/// @param after_step called between two steps, for checkpoints
+Outcome follow(Test& test, const std::string& name, bool is_under_way,
+               const std::function<void()>& after_step)
+{
+  ElementRun& run = *test.run;
+  if (!is_under_way) test.add(run.record());
+  Progress progress("leg " + std::to_string(run.state().leg + 1) + ", " + name);
   for (;;) {
     const bool approached = run.is_approaching();
     run.step();
     const Outcome outcome = run.outcome();
     const bool begins = approached && !run.is_approaching();
-    if (outcome != Outcome::goes_on || run.record_is_due() || begins) add(run.record());
-    pictures.look(outcome != Outcome::goes_on);
+    if (outcome != Outcome::goes_on || run.record_is_due() || begins)
+      test.add(run.record());
+    test.pictures->look(outcome != Outcome::goes_on);
     if (outcome != Outcome::goes_on) {
-      progress.done(words(records.back()));
+      progress.done(words(test.records.back()));
       return outcome;
     }
-    progress.update(run.progress(), [&] { return words(records.back()); });
+    progress.update(run.progress(), [&] { return words(test.records.back()); });
+    after_step();
   }
+}
+
+void follow_all(Test& test, const ElementCase& c, bool is_under_way,
+                const std::function<void()>& after_step)
+{
+  for (std::size_t leg = is_under_way ? test.run->state().leg : 0; leg < c.legs.size();
+       ++leg) {
+    if (!is_under_way) {
+      test.run->set_out(leg);
+      test.outcomes.push_back(Outcome::broke_off);
+    }
+    test.outcomes.back() = follow(test, name_of(c.legs[leg]), is_under_way, after_step);
+    is_under_way = false;
+    if (test.outcomes.back() != Outcome::done) return;
+  }
+}
+
+void put(dem::State& state, const std::vector<Outcome>& outcomes)
+{
+  std::vector<std::uint64_t> numbers;
+  for (const Outcome o : outcomes) numbers.push_back(static_cast<std::uint64_t>(o));
+  state.add_common("element_outcomes", std::move(numbers));
+}
+
+/// Of the legs that were begun, all of the case.
+std::vector<Outcome> take_outcomes(const dem::State& state, const ElementCase& c)
+{
+  std::vector<Outcome> outcomes;
+  for (const std::uint64_t n : state.get<std::uint64_t>("element_outcomes")) {
+    if (n > static_cast<std::uint64_t>(Outcome::broke_off))
+      dem::State::refuse("element_outcomes", "names what there is not");
+    outcomes.push_back(static_cast<Outcome>(n));
+  }
+  if (outcomes.empty() || outcomes.size() > c.legs.size())
+    dem::State::refuse("element_outcomes", "counts legs that there are not");
+  return outcomes;
 }
 
 /// What was found in the legs that were begun, and what it took.
@@ -84,53 +137,166 @@ void help_element(std::ostream& out)
   file.help(out);
 }
 
-int run_element(const JobOptions& options)
+namespace {
+
+/// Keys that a restart may change; of the legs those to come.
+std::vector<std::string> free_keys()
 {
-  const double start = dem::wall_clock();
-  CaseFile file;
-  ElementCase c;
-  declare(file, c);
-  read_case(file, options, std::nullopt);
-  complete(file, c);
-  const OutputFolder folder = folder_to_begin_in(options);
+  std::vector<std::string> keys{"Analysis/secant from",    "Analysis/secant to",
+                                "Analysis/yield offset",   "Analysis/critical states",
+                                "Output/checkpoint every", "Specimen/file"};
+  for (std::size_t k = 0; k < most_legs; ++k) keys.push_back("Loading/" + key_of_leg(k));
+  return keys;
+}
+
+/// Refuse other legs up to the one that is under way.
+void check_legs(const CaseFile& file, const ElementCase& c, const Restart& restart,
+                const std::vector<CaseFile::Change>& changed)
+{
+  const auto leg = std::find_if(changed.begin(), changed.end(),
+                                [](const auto& k) { return k.section == "Loading"; });
+  if (leg == changed.end()) return;
+  CaseFile earlier_file;
+  ElementCase earlier;
+  declare(earlier_file, earlier);
+  earlier_file.read_text(restart.checkpoint.label.case_text, restart.file.string());
+  complete(earlier_file, earlier);
+  const std::size_t n = take_outcomes(restart.checkpoint.state, earlier).size();
+  if (c.legs.size() < n ||
+      !std::equal(earlier.legs.begin(), earlier.legs.begin() + n, c.legs.begin()))
+    file.refuse(
+        "Loading", leg->key,
+        "was \"" + leg->was + "\", and the checkpoint stands in leg " + std::to_string(n) +
+            " of the test: only legs behind that may change. Restore it, or take an "
+            "older checkpoint");
+}
+
+/// Files that the run reads after the folder was looked at.
+std::vector<std::filesystem::path> inputs_of(const JobOptions& options,
+                                             const ElementCase& c,
+                                             const std::optional<Restart>& restart)
+{
   std::vector<std::filesystem::path> inputs;
   if (options.restart.empty()) inputs.push_back(options.case_file);
+  if (restart) inputs.push_back(restart->file);
   for (const auto& input : {c.specimen.sample, c.specimen.table})
-    if (!input.empty()) inputs.push_back(input);
-  on_first_rank([&] { folder.check(inputs); });
+    if (!restart && !input.empty()) inputs.push_back(input);
+  return inputs;
+}
 
+void put(dem::State& state, const Test& test)
+{
+  test.run->put(state);
+  put(state, test.records);
+  put(state, test.outcomes);
+  test.pictures->put(state);
+  ElementHistory::put(state, test.history ? &*test.history : nullptr);
+}
+
+void begin(Test& test, const CaseFile& file, const ElementCase& c, OutputFolder& folder,
+           const std::vector<std::filesystem::path>& inputs)
+{
   ElementRock rock = obtain_rock(file, c);
   const dem::PairMaterials materials = resolved_materials(c, rock);
   std::cout << report(c, rock, materials) << '\n';
-
-  std::optional<ElementHistory> history;
+  test.run.emplace(c, std::move(rock), materials);
   on_first_rank([&] {
     folder.commit(inputs);
     file.write_resolved(folder.path() / "resolved.prm");
-    history.emplace(folder.path() / "history.csv");
+    test.history.emplace(folder.path() / "history.csv");
+  });
+  test.pictures.emplace(folder.path(), c, *test.run);
+}
+
+void go_on(Test& test, const CaseFile& file, const ElementCase& c, OutputFolder& folder,
+           const std::vector<std::filesystem::path>& inputs, Restart& restart)
+{
+  dem::State& state = restart.checkpoint.state;
+  test.records = take_records(state);
+  test.outcomes = take_outcomes(state, c);
+  test.seconds_before = state.get_rows<double>("seconds", 1).front();
+  test.run.emplace(c, state);
+  on_first_rank([&] {
+    folder.commit(inputs);
+    for (const auto& set_aside :
+         folder.cut_back(Frames::count(state), restart.checkpoint.label.step))
+      std::cout << "set aside: " << set_aside.string() << '\n';
+    file.write_resolved(folder.path() / "resolved.prm");
+    test.history.emplace(folder.path() / "history.csv", restart.folder / "history.csv",
+                         state);
+  });
+  test.pictures.emplace(folder.path(), c, *test.run, restart.folder, state);
+  restart.file = bring_along(restart.file, folder.path());
+}
+
+} // namespace
+
+int run_element(const JobOptions& options)
+{
+  const double start = dem::wall_clock();
+  std::optional<Restart> restart = find_restart(options.restart, "element");
+  CaseFile file;
+  ElementCase c;
+  declare(file, c);
+  std::vector<CaseFile::Change> changed;
+  on_every_rank([&] {
+    read_case(file, options, restart);
+    complete(file, c);
+    if (!restart) return;
+    changed = check_case(file, *restart, free_keys());
+    check_legs(file, c, *restart, changed);
+  });
+  if (restart) std::cout << report(*restart, changed) << '\n';
+  OutputFolder folder(options.output, Earlier::keep);
+  const auto inputs = inputs_of(options, c, restart);
+  on_first_rank([&] {
+    folder = folder_of(options, restart);
+    folder.check(inputs);
+    if (!restart) return;
+    ElementHistory::check(restart->folder / "history.csv", restart->checkpoint.state);
+    ElementPictures::check(restart->folder, restart->checkpoint.state);
   });
 
-  ElementRun run(c, std::move(rock), materials);
-  ElementPictures pictures(folder.path(), c, run);
-  std::vector<ElementRecord> records;
-  std::vector<Outcome> outcomes;
+  Test test;
+  if (restart)
+    go_on(test, file, c, folder, inputs, *restart);
+  else
+    begin(test, file, c, folder, inputs);
+  const auto seconds = [&] { return test.seconds_before + dem::wall_clock() - start; };
+  Keeper keeper({.folder = folder.path(),
+                 .job = "element",
+                 .case_text = file.resolved_text(),
+                 .every = c.checkpoints.every,
+                 .end = start + options.walltime,
+                 .restarted_from = restart ? restart->file : std::filesystem::path{}});
+  bool is_under_way = restart.has_value();
+  restart.reset(); // its arrays are no longer needed
+
+  const auto after_step = [&] {
+    const ElementState& s = test.run->state();
+    const std::string stage = "leg " + std::to_string(s.leg + 1);
+    keeper.after_step(s.rock.domain, {s.n_steps, s.time, stage.c_str()},
+                      [&](dem::State& state) {
+                        put(state, test);
+                        state.add_common<double>("seconds", {seconds()});
+                      });
+  };
   const auto close = [&] {
-    if (!is_first_rank() || records.empty()) return;
+    if (!is_first_rank() || test.records.empty()) return;
     const ElementSummary s =
-        summary_of(c, run, outcomes, records, dem::wall_clock() - start);
+        summary_of(c, *test.run, test.outcomes, test.records, seconds());
     write_summary(folder.path() / "summary.json", c, s);
     print_summary(folder.path(), s);
   };
   try {
-    for (std::size_t leg = 0; leg < c.legs.size(); ++leg) {
-      outcomes.push_back(Outcome::broke_off);
-      outcomes.back() = follow(run, leg, name_of(c.legs[leg]), records,
-                               history ? &*history : nullptr, pictures);
-      if (outcomes.back() != Outcome::done) break;
-    }
+    follow_all(test, c, is_under_way, after_step);
+  } catch (const CollectiveFailure&) {
+    throw; // stopped, or no room for a checkpoint: the test can go on
   } catch (const NumericalError&) { // perhaps on one rank alone
     close();
-    throw;
+    keeper.rethrow_with_remedy();
+  } catch (...) {
+    keeper.rethrow_with_remedy();
   }
   close();
   return 0;

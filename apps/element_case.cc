@@ -15,13 +15,6 @@ namespace mergel::apps {
 
 namespace {
 
-constexpr std::size_t most_legs = 12;
-
-std::string key_of_leg(std::size_t k)
-{
-  return "leg " + std::to_string(k + 1);
-}
-
 void declare_size_effect(CaseFile& file, SizeEffect& e)
 {
   const auto section = file.section("Size effect");
@@ -128,6 +121,11 @@ dem::CriticalState last_state(const CaseFile& file, const std::filesystem::path&
 
 } // namespace
 
+std::string key_of_leg(std::size_t k)
+{
+  return "leg " + std::to_string(k + 1);
+}
+
 double SizeEffect::factor(double B) const
 {
   if (!is_on || std::abs(B / reference_width - 1.0) < 0.01) return 1.0;
@@ -148,6 +146,7 @@ void declare(CaseFile& file, ElementCase& c)
   const auto section = file.section("Output");
   file.number("record every", c.record_every, inside(0.0, 0.1),
               "Driven strain from one line of history.csv to the next.");
+  declare(file, c.checkpoints);
   file.choice("pictures", c.pictures,
               std::vector<std::pair<std::string, ElementCase::Pictures>>{
                   {"none", ElementCase::Pictures::none},
@@ -160,7 +159,7 @@ void declare(CaseFile& file, ElementCase& c)
               "Strain of any edge of the cell from one picture to the next.");
 }
 
-void complete(const CaseFile& file, ElementCase& c)
+void complete(CaseFile& file, ElementCase& c)
 {
   if (c.specimen.shape != SpecimenKeys::Shape::periodic_box)
     file.refuse("Specimen", "shape", "an element test leads a `periodic box`");
@@ -170,6 +169,7 @@ void complete(const CaseFile& file, ElementCase& c)
   if (c.secant_to <= c.secant_from)
     file.refuse("Analysis", "secant to", "must be beyond `secant from`");
 
+  complete(file, c.checkpoints);
   bool is_over = false;
   for (std::size_t k = 0; k < most_legs; ++k) {
     if (c.leg_texts[k].empty()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/case_file.h"
+#include "apps/keeper.h"
 #include "apps/legs.h"
 #include "apps/material_keys.h"
 #include "apps/specimen_keys.h"
@@ -51,12 +52,17 @@ struct ElementCase {
   double record_every = 2e-4; ///< strain [-]
   Pictures pictures = Pictures::legs;
   double picture_every = 1e-2; ///< strain [-]
+  CheckpointKey checkpoints;
 };
+
+constexpr std::size_t most_legs = 12;
+/// "leg 1" of 0.
+std::string key_of_leg(std::size_t k);
 
 void declare(CaseFile& file, ElementCase& c);
 
 /// Checks that span keys; reads the legs.
-void complete(const CaseFile& file, ElementCase& c);
+void complete(CaseFile& file, ElementCase& c);
 
 /// Grains of a periodic cell and what is bonded.
 struct ElementRock {

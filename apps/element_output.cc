@@ -77,6 +77,34 @@ ElementHistory::ElementHistory(const std::filesystem::path& file) : history_(fil
 {
 }
 
+namespace {
+
+dem::HistoryMark mark_in(const dem::State& state)
+{
+  const auto& mark = state.get_rows<std::uint64_t>("output_history", 2);
+  return {mark[0], mark[1]};
+}
+
+} // namespace
+
+ElementHistory::ElementHistory(const std::filesystem::path& file,
+                               const std::filesystem::path& earlier,
+                               const dem::State& state)
+    : history_(file, columns, earlier, mark_in(state))
+{
+}
+
+void ElementHistory::put(dem::State& state, const ElementHistory* history)
+{
+  const dem::HistoryMark mark = history ? history->history_.mark() : dem::HistoryMark{};
+  state.add_common<std::uint64_t>("output_history", {mark.bytes, mark.sum});
+}
+
+void ElementHistory::check(const std::filesystem::path& file, const dem::State& state)
+{
+  dem::check_history(file, mark_in(state));
+}
+
 void ElementHistory::add(const ElementRecord& r)
 {
   const dem::CellAverages& a = r.averages;

@@ -14,6 +14,15 @@ namespace mergel::apps {
 class ElementHistory {
 public:
   explicit ElementHistory(const std::filesystem::path& file);
+  /// Go on where `earlier`, which may be `file`, stood when put() wrote the state.
+  /// @throws InputError when it is another
+  ElementHistory(const std::filesystem::path& file, const std::filesystem::path& earlier,
+                 const dem::State& state);
+  /// How far it has come. @param history null on all ranks but the first
+  static void put(dem::State& state, const ElementHistory* history);
+  /// @throws InputError when `file` does not begin with what was written by then
+  static void check(const std::filesystem::path& file, const dem::State& state);
+
   void add(const ElementRecord& r);
 
 private:

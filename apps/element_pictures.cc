@@ -5,11 +5,12 @@
 #include "dem/io/rock_fields.h"
 
 #include <cmath>
-#include <cstdio>
 
 namespace mergel::apps {
 
 namespace {
+
+const std::vector<Frames::Kind> kinds{{"particles", "vtp"}, {"bonds", "vtp"}};
 
 /// Rows of the tensors, tension positive.
 dem::Field stress_field(const dem::Rock& rock)
@@ -23,13 +24,42 @@ dem::Field stress_field(const dem::Rock& rock)
 
 } // namespace
 
-ElementPictures::ElementPictures(std::filesystem::path folder, const ElementCase& c,
+ElementPictures::ElementPictures(const std::filesystem::path& folder, const ElementCase& c,
                                  ElementRun& run)
-    : folder_(std::move(folder)), when_(c.pictures), every_(c.picture_every), run_(run),
-      size_taken_(run.rock().cell.size), particles_(folder_ / "particles.pvd"),
-      bonds_(folder_ / "bonds.pvd")
+    : when_(c.pictures), every_(c.picture_every), run_(run),
+      size_taken_(run.rock().cell.size)
 {
+  on_first_rank([&] { frames_.emplace(folder, kinds); });
   if (when_ != ElementCase::Pictures::none) take();
+}
+
+ElementPictures::ElementPictures(const std::filesystem::path& folder, const ElementCase& c,
+                                 ElementRun& run, const std::filesystem::path& earlier,
+                                 const dem::State& state)
+    : when_(c.pictures), every_(c.picture_every), run_(run)
+{
+  const auto& x = state.get<double>("picture_x_0", 3);
+  for (std::size_t k = 0; k < x.size(); k += 3) x_0_.emplace_back(x[k], x[k + 1], x[k + 2]);
+  if (!x_0_.empty() && x_0_.size() != run.rock().particles.size())
+    dem::State::refuse("picture_x_0", "is of other grains");
+  const auto& size = state.get_rows<double>("picture_size", 3);
+  size_taken_ = {size[0], size[1], size[2]};
+  on_first_rank([&] { frames_.emplace(folder, kinds, earlier, state); });
+}
+
+void ElementPictures::put(dem::State& state) const
+{
+  std::vector<double> x;
+  for (const dem::Vec3& x_0 : x_0_) x.insert(x.end(), {x_0.x(), x_0.y(), x_0.z()});
+  state.add_common("picture_x_0", std::move(x), 3);
+  state.add_common<double>("picture_size",
+                           {size_taken_.x(), size_taken_.y(), size_taken_.z()});
+  Frames::put(state, frames_ ? &*frames_ : nullptr);
+}
+
+void ElementPictures::check(const std::filesystem::path& folder, const dem::State& state)
+{
+  Frames::check(folder, kinds, state);
 }
 
 void ElementPictures::look(bool leg_ends)
@@ -48,18 +78,9 @@ void ElementPictures::take()
     for (const dem::Body& b : rock.particles.body) x_0_.push_back(b.x);
   size_taken_ = rock.cell.size;
   on_first_rank([&] {
-    const auto file = [&](const char* kind) {
-      char name[64];
-      std::snprintf(name, sizeof name, "%s_%04zu.vtp", kind, particles_.entries().size());
-      return folder_ / "fields" / name;
-    };
-    std::filesystem::create_directories(folder_ / "fields");
-    const double time = run_.state().time;
-    const auto particles = file("particles"), bonds = file("bonds");
-    dem::write_particles(particles, rock, x_0_, {stress_field(rock)});
-    dem::write_bonds(bonds, rock);
-    particles_.add(time, particles);
-    bonds_.add(time, bonds);
+    dem::write_particles(frames_->file(0), rock, x_0_, {stress_field(rock)});
+    dem::write_bonds(frames_->file(1), rock);
+    frames_->add(run_.state().time);
   });
 }
 

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "apps/element_run.h"
-#include "dem/io/vtk.h"
+#include "apps/frames.h"
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace mergel::apps {
@@ -14,21 +15,30 @@ namespace mergel::apps {
 class ElementPictures {
 public:
   /// The rock before the first leg is the first picture. Collective, as is look().
-  ElementPictures(std::filesystem::path folder, const ElementCase& c, ElementRun& run);
+  ElementPictures(const std::filesystem::path& folder, const ElementCase& c,
+                  ElementRun& run);
+  /// Go on with those that `earlier`, which may be the same folder, held when put() wrote
+  /// `state`.
+  ElementPictures(const std::filesystem::path& folder, const ElementCase& c,
+                  ElementRun& run, const std::filesystem::path& earlier,
+                  const dem::State& state);
 
   /// Take a picture where one is due: a leg ends, or an edge was strained by so much.
   void look(bool leg_ends);
 
+  void put(dem::State& state) const;
+  /// @throws InputError when the files of `folder` do not go as far as `state` says
+  static void check(const std::filesystem::path& folder, const dem::State& state);
+
 private:
   void take();
 
-  std::filesystem::path folder_;
   ElementCase::Pictures when_;
   double every_;
   ElementRun& run_;
-  std::vector<dem::Vec3> x_0_; ///< of the first picture [m]
-  dem::Vec3 size_taken_;       ///< of the cell in the last one [m]
-  dem::Series particles_, bonds_;
+  std::vector<dem::Vec3> x_0_;   ///< of the first picture [m]
+  dem::Vec3 size_taken_;         ///< of the cell in the last one [m]
+  std::optional<Frames> frames_; ///< on the first rank
 };
 
 } // namespace mergel::apps

@@ -3,6 +3,7 @@
 
 #include "apps/element_case.h"
 #include "dem/balance.h"
+#include "dem/io/state_file.h"
 
 namespace mergel::apps {
 
@@ -62,6 +63,12 @@ public:
   /// Collective, as is all below.
   ElementRun(const ElementCase& c, ElementRock rock, const dem::PairMaterials& materials);
 
+  /// As it was when put() wrote the state, in the middle of a leg.
+  /// @throws InputError when the state is of another run
+  ElementRun(const ElementCase& c, dem::State& state);
+
+  void put(dem::State& state) const;
+
   /// Set out on the leg of this number. Stresses that it holds may be elsewhere: the steps
   /// then bring them there first, at the rate of the test, while is_approaching(); strains
   /// of the leg count from the end of that.
@@ -92,5 +99,9 @@ private:
   ElementState state_;
   double d_ = 0.0, rho_ = 0.0; ///< mean diameter by mass [m], density of grains [kg/m^3]
 };
+
+/// What was recorded so far, for the analysis of the legs.
+void put(dem::State& state, const std::vector<ElementRecord>& records);
+std::vector<ElementRecord> take_records(const dem::State& state);
 
 } // namespace mergel::apps

@@ -46,6 +46,7 @@ struct Job {
   const char* sentence;
   void (*help)(std::ostream&);
   std::variant<RunCase, ReadArguments> run;
+  bool writes_checkpoints = false; ///< and so can stop in time
 
   bool reads_case() const { return std::holds_alternative<RunCase>(run); }
 };
@@ -54,9 +55,9 @@ inline constexpr std::array<Job, 6> jobs{{
     {"bench", "Measure what a step costs on this machine.", help_bench, read_bench},
     {"bond", "Drive one bonded pair of spheres along any path.", help_bond, run_bond},
     {"element", "Lead a periodic cell of rock along any path of stress and strain.",
-     help_element, run_element},
+     help_element, run_element, true},
     {"info", "Say what a sample, checkpoint or results folder is.", help_info, read_info},
-    {"pile", "Install a pile in a coupled chamber of rock.", help_pile, run_pile},
+    {"pile", "Install a pile in a coupled chamber of rock.", help_pile, run_pile, true},
     {"sample", "Make a specimen and write it to a file for later runs.", help_sample,
      run_sample},
 }};

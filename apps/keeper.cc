@@ -1,6 +1,7 @@
 #include "apps/keeper.h"
 
 #include "apps/progress.h"
+#include "apps/run_guard.h"
 #include "apps/units.h"
 #include "apps/words.h"
 #include "dem/io/history.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace mergel::apps {
 
@@ -23,6 +25,18 @@ constexpr std::size_t n_kept = 2;
 
 /// Before the end of the walltime: this, and twice what a checkpoint and a look have taken.
 constexpr double margin = 2.0; // [s]
+
+/// What a slow disk of a cluster writes: the first checkpoint is counted upon by it.
+constexpr double least_rate = 20e6; // [bytes/s]
+
+/// All ranks together; collective.
+double n_bytes(const dem::State& mine, const dem::Domain& domain)
+{
+  std::size_t n = 0;
+  for (const auto& [name, array] : mine.arrays())
+    n += std::visit([](const auto& v) { return v.size() * sizeof(v[0]); }, array.values);
+  return static_cast<double>(domain.sum(n));
+}
 
 } // namespace
 
@@ -47,6 +61,23 @@ Cadence to_cadence(const std::string& text)
   }
   if (every.seconds <= 0.0) throw InputError("must be above 0 s; or write never");
   return every;
+}
+
+void declare(CaseFile& file, CheckpointKey& key)
+{
+  file.text(
+      "checkpoint every", key.text,
+      "Wall-clock time or steps between checkpoints (10 min, 5000 steps), or never; the "
+      "last two are kept.");
+}
+
+void complete(const CaseFile& file, CheckpointKey& key)
+{
+  try {
+    key.every = to_cadence(key.text);
+  } catch (const InputError& e) {
+    file.refuse("Output", "checkpoint every", e.what());
+  }
 }
 
 double to_walltime(const std::string& text)
@@ -103,6 +134,12 @@ void Keeper::after_step(const dem::Domain& domain, const Position& at,
 {
   const bool is_at_step = spec_.every.steps > 0 && at.step % spec_.every.steps == 0;
   if (!is_at_step && at.step % steps_between_looks != 0) return;
+  if (!has_estimate_ && std::isfinite(spec_.end)) {
+    dem::State mine(domain.rank());
+    put(mine);
+    longest_ = n_bytes(mine, domain) / least_rate;
+    has_estimate_ = true;
+  }
   const auto wish = static_cast<Wish>(
       static_cast<int>(domain.greatest(static_cast<double>(wish_here(domain, at)))));
   if (wish == none) return;
@@ -129,11 +166,12 @@ void Keeper::write_now(const dem::Domain& domain, const Position& at,
   } catch (const CollectiveFailure& e) {
     throw CollectiveFailure(e.what() + remedy());
   }
-  if (domain.rank() == 0) dem::keep_newest(spec_.folder, n_kept);
+  if (domain.rank() == 0) dem::keep_newest(file, n_kept);
   last_ = file;
   signals_.checkpointed();
   asked_ = written_ = dem::wall_clock();
-  longest_ = std::max(longest_, written_ - start);
+  longest_ = n_written_ == 0 ? written_ - start : std::max(longest_, written_ - start);
+  has_estimate_ = true;
   ++n_written_;
 }
 
@@ -146,6 +184,13 @@ std::string Keeper::remedy() const
 {
   if (last_.empty()) return "; there is no checkpoint yet";
   return "; the last good checkpoint is " + last_.string() + ". " + how_to_continue();
+}
+
+void Keeper::rethrow_with_remedy() const
+{
+  const Verdict verdict = judge_current_exception();
+  if (verdict.code != exit_failure || verdict.is_collective) throw;
+  throw NumericalError(verdict.message + remedy());
 }
 
 } // namespace mergel::apps

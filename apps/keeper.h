@@ -2,6 +2,7 @@
 /// run is told to stop.
 #pragma once
 
+#include "apps/case_file.h"
 #include "apps/signals.h"
 #include "dem/io/checkpoint.h"
 
@@ -19,6 +20,16 @@ struct Cadence {
 
 /// "10 min", "5000 steps" or "never". @throws InputError saying what is expected
 Cadence to_cadence(const std::string& text);
+
+/// Key `Output/checkpoint every`.
+struct CheckpointKey {
+  std::string text = "10 min";
+  Cadence every; ///< the same, set by complete()
+};
+/// In the open section. @pre file.section("Output") lives
+void declare(CaseFile& file, CheckpointKey& key);
+/// @throws InputError naming file, line and key
+void complete(const CaseFile& file, CheckpointKey& key);
 
 /// "4h", "30 min", "90 s" or "4:00:00", as --walltime takes it [s]. @throws InputError
 double to_walltime(const std::string& text);
@@ -60,6 +71,11 @@ public:
   /// "; the last checkpoint is ..., continue with ...", for a message on a failure.
   std::string remedy() const;
 
+  /// Throw the exception that is being handled: a failure of run, system or library (exit
+  /// code 2) as a NumericalError with the remedy, what all ranks know and all else as it is.
+  /// @pre called from a catch block
+  [[noreturn]] void rethrow_with_remedy() const;
+
   std::size_t n_written() const { return n_written_; }
   double longest_write() const { return longest_; } ///< [s]
 
@@ -75,6 +91,7 @@ private:
   std::filesystem::path last_;
   double written_, asked_;               ///< instants [s]
   double longest_ = 0.0, between_ = 0.0; ///< longest write, and time between two looks [s]
+  bool has_estimate_ = false; ///< longest_ is measured, or guessed from the bytes
   std::size_t n_written_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include "apps/command_line.h"
 #include "apps/jobs.h"
 #include "apps/keeper.h"
+#include "apps/ranks.h"
 #include "apps/restart.h"
 #include "apps/run_guard.h"
 #include "apps/signals.h"
@@ -42,6 +43,24 @@ void print_help(std::ostream& out)
          "version.\n";
 }
 
+const char* const help_on_checkpoints =
+    R"(  --restart DIR|FILE         go on in a results folder from its newest good checkpoint, or
+                             from this one; begin where there is none yet. CASE.prm may be
+                             left out
+  --walltime TIME            write a checkpoint and stop in time before (4h, 30 min, 4:00:00)
+
+SIGUSR1 asks for a checkpoint, SIGTERM for one and the end of the run.
+
+)";
+const char* const help_without_checkpoints =
+    R"(  --restart DIR              begin again in the results folder of a run that was ended;
+                             CASE.prm may be left out
+
+The job writes no checkpoints: SIGTERM ends it at once, --walltime is refused. Begun again it
+gives the same bits.
+
+)";
+
 void print_job_help(const Job& job, std::ostream& out)
 {
   out << "mergel " << job.name << ": " << job.sentence << "\n\nusage: mergel " << job.name;
@@ -53,16 +72,9 @@ void print_job_help(const Job& job, std::ostream& out)
   out << " CASE.prm [options]\n"
          "  --set \"Section/key=value\"  set a key over the case file; may be repeated\n"
          "  --output DIR               results folder; default results/<name of the case>\n"
-         "  --overwrite                replace an earlier run in that folder\n"
-         "  --restart DIR|FILE         go on in a results folder from its newest good "
-         "checkpoint, or\n                             from this one; begin where there is "
-         "none yet. CASE.prm may be\n                             left out. bond and "
-         "sample "
-         "begin again: their results are\n                             the same bits, and "
-         "soon there\n"
-         "  --walltime TIME            write a checkpoint and stop in time before (4h, 30 "
-         "min, 4:00:00)\n\n"
-         "Keys of CASE.prm, by section. Values carry their unit; any unit of the same "
+         "  --overwrite                replace an earlier run in that folder\n";
+  out << (job.writes_checkpoints ? help_on_checkpoints : help_without_checkpoints);
+  out << "Keys of CASE.prm, by section. Values carry their unit; any unit of the same "
          "dimension\nwill do.\n\n";
   job.help(out);
 }
@@ -78,6 +90,14 @@ const Job& find_job(const std::string& name)
   throw InputError("mergel: unknown job \"" + name + "\". " +
                    (meant.empty() ? "Jobs are " + joined(names, ", ") + "."
                                   : "Did you mean \"" + meant + "\"?"));
+}
+
+std::vector<std::string> jobs_with_checkpoints()
+{
+  std::vector<std::string> names;
+  for (const Job& job : jobs)
+    if (job.writes_checkpoints) names.push_back(job.name);
+  return names;
 }
 
 /// @throws InputError, or CLI::CallForHelp
@@ -96,7 +116,14 @@ JobOptions parse_case(const Job& job, std::vector<std::string> arguments)
   parse(app, command, std::move(arguments));
   require(!options.case_file.empty() || !options.restart.empty(),
           command + ": no case file is given. See " + command + " --help.");
-  if (!walltime.empty()) options.walltime = to_walltime(walltime);
+  if (!walltime.empty()) {
+    require(job.writes_checkpoints,
+            command + ": --walltime " + walltime + ": the job writes no checkpoints and " +
+                "could not stop in time; of those that do there is " +
+                joined(jobs_with_checkpoints(), ", ") +
+                ". Leave it out: the job begins again with --restart.");
+    options.walltime = to_walltime(walltime);
+  }
   if (options.output.empty() && !options.restart.empty())
     options.output = folder_to_restart(options.restart);
   if (options.output.empty())
@@ -126,7 +153,11 @@ int run(int argc, char** argv)
   try {
     if (job.reads_case())
       start = [run = std::get<RunCase>(job.run), options = parse_case(job, rest)] {
-        return run(options);
+        JobOptions agreed = options;
+        std::string output = options.output.string(); // as the first rank sees the disk
+        share(output);
+        agreed.output = output;
+        return run(agreed);
       };
     else
       start = std::get<ReadArguments>(job.run)(rest);

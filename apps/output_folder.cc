@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <limits>
 #include <regex>
 #include <string>
 #include <string_view>
@@ -33,10 +35,34 @@ constexpr std::string_view own_folder = "fields";
   throw InputError("output folder " + path.string() + ": " + message);
 }
 
+constexpr std::string_view aside = ".aside";
+
+bool is_set_aside(const fs::path& name)
+{
+  return name.extension() == aside && dem::is_checkpoint_name(name.stem());
+}
+
 bool is_own_file(const fs::path& name)
 {
   return std::find(own_files.begin(), own_files.end(), name.string()) != own_files.end() ||
-         dem::is_checkpoint_name(name);
+         dem::is_checkpoint_name(name) || is_set_aside(name);
+}
+
+/// Number in particles_0012.vtp; the greatest there is for one beyond.
+std::uint64_t frame_of(const fs::path& name)
+{
+  const std::string stem = name.stem().string();
+  std::uint64_t frame = 0;
+  const char* const digits = stem.data() + stem.rfind('_') + 1;
+  const auto read = std::from_chars(digits, stem.data() + stem.size(), frame);
+  return read.ec == std::errc{} ? frame : std::numeric_limits<std::uint64_t>::max();
+}
+
+/// A folder itself, and no link to one.
+bool is_real_folder(const fs::path& path)
+{
+  std::error_code error;
+  return fs::is_directory(fs::symlink_status(path, error));
 }
 
 /// particles_0012.vtp and the like.
@@ -69,22 +95,26 @@ OutputFolder::OutputFolder(fs::path folder, Earlier earlier)
 std::vector<fs::path> OutputFolder::left_by_earlier_run() const
 {
   std::vector<fs::path> found;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder_, error), end; !error && entry != end;
-       entry.increment(error)) {
-    const fs::path name = entry->path().filename();
-    // a link counts as the link, never as what it points to
-    const bool is_folder = fs::is_directory(fs::symlink_status(entry->path()));
-    if (!is_folder && (name == own_folder || is_own_file(final_name(name))))
-      found.push_back(entry->path());
-    if (is_folder && name == own_folder)
-      for (const fs::directory_entry& field : fs::directory_iterator(entry->path()))
-        if (!field.is_directory() && is_own_field(final_name(field.path().filename())))
-          found.push_back(field.path());
-  }
-  std::error_code unknown;
-  if (error && fs::exists(folder_, unknown))
-    refuse(folder_, "cannot be read: " + error.message() + ".");
+  const auto look_into = [&](const fs::path& folder, auto&& is_own) {
+    std::error_code error, unknown;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error))
+      // a link counts as the link, never as what it points to
+      if (is_own(entry->path().filename(), is_real_folder(entry->path())))
+        found.push_back(entry->path());
+    if (error && fs::exists(folder_, unknown))
+      refuse(folder_, "cannot be read: " + error.message() + " at " +
+                          in_quotes(folder.string()) +
+                          ". Check its permissions, or choose another folder with "
+                          "--output.");
+  };
+  look_into(folder_, [](const fs::path& name, bool is_folder) {
+    return !is_folder && (name == own_folder || is_own_file(final_name(name)));
+  });
+  if (is_real_folder(folder_ / own_folder))
+    look_into(folder_ / own_folder, [](const fs::path& name, bool is_folder) {
+      return !is_folder && is_own_field(final_name(name));
+    });
   std::sort(found.begin(), found.end()); // the order of a folder is arbitrary
   return found;
 }
@@ -95,8 +125,11 @@ void OutputFolder::check(const std::vector<fs::path>& inputs) const
     throw InputError("output folder: no name is given. Use --output DIR.");
 
   // the folder itself or, if it is yet to be made, the nearest that is there
-  fs::path there = fs::absolute(folder_).lexically_normal();
   std::error_code error;
+  fs::path there = fs::absolute(folder_, error).lexically_normal();
+  if (error)
+    refuse(folder_, "cannot be placed: the working folder is gone (" + error.message() +
+                        "). Use an absolute path.");
   while (!fs::exists(fs::symlink_status(there, error)) && there.has_relative_path()) {
     if (error == std::errc::filename_too_long)
       refuse(folder_, "cannot be created: " + error.message() +
@@ -114,6 +147,7 @@ void OutputFolder::check(const std::vector<fs::path>& inputs) const
                         " at \"" + there.string() +
                         "\". Choose another folder with --output.");
 
+  if (!lock_.is_held()) require_no_run(folder_);
   const std::vector<fs::path> earlier = left_by_earlier_run();
   if (earlier.empty() || earlier_ == Earlier::go_on) return;
   if (earlier_ == Earlier::keep)
@@ -124,20 +158,28 @@ void OutputFolder::check(const std::vector<fs::path>& inputs) const
   for (const fs::path& old : earlier)
     for (const fs::path& input : inputs) {
       if (input.empty()) continue;
-      const fs::path relative =
-          fs::weakly_canonical(input).lexically_relative(fs::weakly_canonical(old));
+      std::error_code no_input, no_old; // what cannot be reached is not read either
+      const fs::path relative = fs::weakly_canonical(input, no_input)
+                                    .lexically_relative(fs::weakly_canonical(old, no_old));
+      if (no_input || no_old) continue;
       if (!relative.empty() && *relative.begin() != "..")
         refuse(folder_, "--overwrite would remove " + input.string() +
                             ", which this run reads. Choose another folder with --output.");
     }
 }
 
-void OutputFolder::commit(const std::vector<fs::path>& inputs) const
+void OutputFolder::commit(const std::vector<fs::path>& inputs)
 {
   check(inputs);
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) refuse(folder_, "cannot be created: " + error.message() + ".");
+  if (error)
+    refuse(folder_, "cannot be created: " + error.message() +
+                        ". Choose another folder with --output.");
+  if (!lock_.is_held()) {
+    lock_ = FolderLock(folder_);
+    check(inputs); // another run may have come and gone
+  }
   if (earlier_ == Earlier::go_on) return;
   for (const fs::path& old : left_by_earlier_run()) {
     fs::remove(old, error); // removes a link, not what it points to
@@ -146,26 +188,32 @@ void OutputFolder::commit(const std::vector<fs::path>& inputs) const
                           " of an earlier run cannot be removed: " + error.message() + ".");
   }
   const fs::path fields = folder_ / own_folder;
-  if (fs::is_directory(fs::symlink_status(fields)) && fs::is_empty(fields))
-    fs::remove(fields, error);
+  if (is_real_folder(fields)) fs::remove(fields, error); // only when it is empty
 }
 
-void OutputFolder::cut_back(std::size_t n_frames, std::uint64_t step) const
+std::vector<fs::path> OutputFolder::cut_back(std::size_t n_frames, std::uint64_t step) const
 {
-  const std::string last = dem::checkpoint_name(step);
-  std::error_code ignored; // what stays is written again, alike
+  std::vector<fs::path> set_aside;
   for (const fs::path& file : left_by_earlier_run()) {
     const fs::path name = file.filename();
-    bool goes = final_name(name) != name || name == "summary.json";
-    if (dem::is_checkpoint_name(name))
-      goes = name.string().size() > last.size() ||
-             (name.string().size() == last.size() && name.string() > last);
-    else if (is_own_field(name)) {
-      const std::string stem = name.stem().string();
-      goes = std::stoull(stem.substr(stem.rfind('_') + 1)) >= n_frames;
+    if (dem::is_checkpoint_name(name) && dem::is_later(name, dem::checkpoint_name(step))) {
+      set_aside.push_back(file);
+      set_aside.back() += aside;
+      std::error_code error; // left in its place it would be taken for this run's
+      fs::rename(file, set_aside.back(), error);
+      if (error)
+        throw NumericalError(file.string() + ": cannot be set aside as " +
+                             set_aside.back().filename().string() + ": " + error.message() +
+                             ". Check the permissions of the folder, or choose another "
+                             "with --output.");
+      continue;
     }
-    if (goes) fs::remove(file, ignored);
+    std::error_code ignored; // what stays is written again, alike
+    if (final_name(name) != name || name == "summary.json" ||
+        (is_own_field(name) && frame_of(name) >= n_frames))
+      fs::remove(file, ignored);
   }
+  return set_aside;
 }
 
 } // namespace mergel::apps

@@ -2,6 +2,8 @@
 /// good.
 #pragma once
 
+#include "apps/folder_lock.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -20,8 +22,8 @@ enum class Earlier {
 /// mergel's own files in it, and the marks of an earlier run: history.csv, resolved.prm,
 /// summary.json, sample.h5, the four series particles, bonds, pile and far_field (.pvd, and
 /// their numbered files in fields/), mergel-view's damage.png, load.png, displacement.png,
-/// loads.png and surface.png, the checkpoints checkpoint_*.h5; also their temporary files
-/// (dem/io/atomic_file.h). fields/ itself goes when nothing else is in it.
+/// loads.png and surface.png, the checkpoints checkpoint_*.h5 and *.h5.aside; also their
+/// temporary files (dem/io/atomic_file.h). fields/ itself goes when nothing else is in it.
 class OutputFolder {
 public:
   OutputFolder(std::filesystem::path folder, Earlier earlier);
@@ -33,22 +35,29 @@ public:
   /// @param inputs files that the run reads later: they must not be among those that
   ///               commit() removes
   /// @throws InputError when something is in its way, it cannot be created or written, it
-  ///         holds an earlier run that is to be kept, or an input would be removed
+  ///         holds an earlier run that is to be kept, another run is writing there, or an
+  ///         input would be removed
   void check(const std::vector<std::filesystem::path>& inputs = {}) const;
 
-  /// check() again, create the folder, and remove what an earlier run left.
+  /// check() again, create the folder, keep other runs out of it while this object lives, and
+  /// remove what an earlier run left.
   /// @throws InputError as above, or with the system's reason
-  void commit(const std::vector<std::filesystem::path>& inputs = {}) const;
+  void commit(const std::vector<std::filesystem::path>& inputs = {});
 
   /// Remove what the earlier run wrote after a checkpoint, and what it left unfinished:
-  /// frames from `n_frames` on, checkpoints after `step`, the summary, temporary files.
-  void cut_back(std::size_t n_frames, std::uint64_t step) const;
+  /// frames from `n_frames` on, the summary, temporary files. Checkpoints after `step` are
+  /// set aside, whatever is wrong with them: checkpoint_<step>.h5.aside.
+  /// @return the new names of these
+  /// @throws NumericalError when one cannot be renamed
+  std::vector<std::filesystem::path> cut_back(std::size_t n_frames,
+                                              std::uint64_t step) const;
 
 private:
   std::vector<std::filesystem::path> left_by_earlier_run() const;
 
   std::filesystem::path folder_;
   Earlier earlier_;
+  FolderLock lock_; ///< from commit() on
 };
 
 } // namespace mergel::apps

@@ -472,36 +472,6 @@ void check_new_end(const CaseFile& file, const PileCase& c, const Restart& resta
           "for one of the two: restore it, or take an older checkpoint");
 }
 
-/// The folder of the run.
-OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart)
-{
-  std::error_code error;
-  const auto is_output = [&](const std::filesystem::path& folder) {
-    return std::filesystem::equivalent(options.output, folder, error);
-  };
-  if (restart && is_output(restart->folder)) return {options.output, Earlier::go_on};
-  if (restart)
-    return {options.output, options.overwrite ? Earlier::overwrite : Earlier::keep};
-  return folder_to_begin_in(options);
-}
-
-/// Bring the checkpoint into the folder where the run goes on, if that is another: a run that
-/// ends before its own first one can be restarted from there too. Returns where it is.
-std::filesystem::path bring_along(const std::filesystem::path& checkpoint,
-                                  const std::filesystem::path& folder)
-{
-  const std::filesystem::path there = folder / checkpoint.filename();
-  std::error_code error;
-  if (std::filesystem::equivalent(checkpoint, there, error)) return checkpoint;
-  on_first_rank([&] {
-    dem::replace_file(there, [&](const std::filesystem::path& file) {
-      std::filesystem::copy_file(checkpoint, file,
-                                 std::filesystem::copy_options::overwrite_existing);
-    });
-  });
-  return there;
-}
-
 /// Files that the run reads after the folder was looked at.
 std::vector<std::filesystem::path> inputs_of(const JobOptions& options, const PileCase& c,
                                              const std::optional<Restart>& restart)
@@ -539,22 +509,23 @@ void go_on(Installation& run, const dem::State& state,
 int run_pile(const JobOptions& options)
 {
   const double start = dem::wall_clock();
-  std::optional<Restart> restart;
-  on_every_rank([&] { restart = find_restart(options.restart, "pile"); });
+  std::optional<Restart> restart = find_restart(options.restart, "pile");
   CaseFile file;
   PileCase c;
   declare(file, c);
-  read_case(file, options, restart);
-  complete(file, c);
   std::vector<CaseFile::Change> changed;
-  if (restart) {
+  on_every_rank([&] {
+    read_case(file, options, restart);
+    complete(file, c);
+    if (!restart) return;
     changed = check_case(file, *restart, free_keys);
     check_new_end(file, c, *restart);
-    std::cout << report(*restart, changed) << '\n';
-  }
-  const OutputFolder folder = folder_of(options, restart);
+  });
+  if (restart) std::cout << report(*restart, changed) << '\n';
+  OutputFolder folder(options.output, Earlier::keep);
   const auto inputs = inputs_of(options, c, restart);
   on_first_rank([&] {
+    folder = folder_of(options, restart);
     folder.check(inputs);
     if (restart) PileOutput::check(restart->folder, restart->checkpoint.state);
   });
@@ -566,14 +537,16 @@ int run_pile(const JobOptions& options)
   std::optional<CoupledRock> coupled;
   if (restart) {
     std::cout << far_field.summary() << '\n';
-    const dem::State& state = restart->checkpoint.state;
+    dem::State& state = restart->checkpoint.state;
     std::vector<dem::PileWall> piles;
     if (Installation::is_in(state)) piles.push_back(make_pile(c));
     coupled.emplace(c.rock, state, std::move(piles), std::move(far_field),
                     std::move(interface));
     on_first_rank([&] {
       folder.commit(inputs);
-      folder.cut_back(PileOutput::n_frames(state), restart->checkpoint.label.step);
+      for (const auto& file :
+           folder.cut_back(Frames::count(state), restart->checkpoint.label.step))
+        std::cout << "set aside: " << file.string() << '\n';
       file.write_resolved(folder.path() / "resolved.prm");
       output.emplace(folder.path(), c, restart->folder, state);
     });
@@ -596,7 +569,7 @@ int run_pile(const JobOptions& options)
   Keeper keeper({.folder = folder.path(),
                  .job = "pile",
                  .case_text = file.resolved_text(),
-                 .every = c.checkpoints,
+                 .every = c.checkpoints.every,
                  .end = start + options.walltime,
                  .restarted_from = restart ? restart->file : std::filesystem::path{}});
   bool is_driving = restart && Installation::is_in(restart->checkpoint.state);
@@ -618,10 +591,8 @@ int run_pile(const JobOptions& options)
     if (!is_driving) run.begin();
     is_driving = true;
     run.run(after_step);
-  } catch (const CollectiveFailure&) {
-    throw; // says all there is to say
-  } catch (const std::runtime_error& e) {
-    throw NumericalError(e.what() + keeper.remedy());
+  } catch (...) {
+    keeper.rethrow_with_remedy();
   }
 
   const std::size_t n_debris = count_debris(coupled->rock, c.rock.lip);

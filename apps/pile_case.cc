@@ -35,13 +35,10 @@ void declare(CaseFile& file, PileCase& c)
                 "Travel of the pile between two lines of history.csv.", "mm");
   file.integer("frames", c.frames, at_least(1.0),
                "Pictures of all fields over the installation, beside the first.");
-  file.text(
-      "checkpoint every", c.checkpoint_every,
-      "Wall-clock time or steps between checkpoints (10 min, 5000 steps), or never; the "
-      "last two are kept.");
+  declare(file, c.checkpoints);
 }
 
-void complete(const CaseFile& file, PileCase& c)
+void complete(CaseFile& file, PileCase& c)
 {
   complete(file, c.rock);
   const auto mm = [](double x) { return dem::shortest(1e3 * x) + " mm"; };
@@ -56,11 +53,7 @@ void complete(const CaseFile& file, PileCase& c)
                 "the tip would come to " + mm(tip) +
                     ", closer than a diameter to the base of the DEM region at " +
                     mm(c.rock.height) + "; lower it or raise `Specimen/height`");
-  try {
-    c.checkpoints = to_cadence(c.checkpoint_every);
-  } catch (const InputError& e) {
-    file.refuse("Output", "checkpoint every", e.what());
-  }
+  complete(file, c.checkpoints);
   c.contact.kappa = c.rock.material.contact.kappa;
 }
 

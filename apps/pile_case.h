@@ -19,8 +19,7 @@ struct PileCase {
   // Output
   double record_every = unset; ///< travel between lines of history.csv [m]
   int frames = 20;             ///< pictures of the fields after the first
-  std::string checkpoint_every = "10 min";
-  Cadence checkpoints; ///< the same, set by complete()
+  CheckpointKey checkpoints;
 
   double cone_height() const;
   /// From the tip at the surface to the shoulder at the final depth [m].
@@ -30,6 +29,6 @@ struct PileCase {
 void declare(CaseFile& file, PileCase& c);
 
 /// @throws InputError naming file, line and key
-void complete(const CaseFile& file, PileCase& c);
+void complete(CaseFile& file, PileCase& c);
 
 } // namespace mergel::apps

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "apps/coupled_rock.h"
+#include "apps/frames.h"
 #include "apps/pile_case.h"
 #include "dem/io/history.h"
-#include "dem/io/vtk.h"
 
 namespace mergel::apps {
 
@@ -39,11 +39,6 @@ public:
   static void put(dem::State& state, const PileOutput* output);
   /// @throws InputError when the files of `folder` do not go as far as `state` says
   static void check(const std::filesystem::path& folder, const dem::State& state);
-  /// Frames that there were.
-  static std::size_t n_frames(const dem::State& state)
-  {
-    return state.get<double>("output_frames").size();
-  }
 
   void record(const PileRecord& r);
   /// Particles, bonds, pile and far field at this time [s].
@@ -51,14 +46,9 @@ public:
   void frame(double time, const dem::Rock& rock, const CoupledRock& coupled);
 
 private:
-  PileOutput(const std::filesystem::path& folder, double diameter, dem::History history,
-             const std::vector<double>& frame_times);
-
-  std::filesystem::path fields_;
   double diameter_;
   dem::History history_;
-  std::vector<double> frame_times_; ///< [s]
-  dem::Series particles_, bonds_, pile_, far_field_;
+  Frames frames_;
 };
 
 } // namespace mergel::apps

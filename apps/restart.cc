@@ -1,10 +1,13 @@
 #include "apps/restart.h"
 
+#include "apps/ranks.h"
 #include "apps/words.h"
 #include "dem/error.h"
+#include "dem/io/atomic_file.h"
 
 #include <algorithm>
 #include <sstream>
+#include <system_error>
 
 namespace mergel::apps {
 
@@ -15,7 +18,19 @@ namespace {
 /// A results folder may still have to be made.
 bool names_file(const fs::path& place)
 {
-  return fs::exists(place) ? !fs::is_directory(place) : place.extension() == ".h5";
+  std::error_code error; // what cannot be reached is refused where it is read
+  const fs::file_status status = fs::status(place, error);
+  return fs::exists(status) ? !fs::is_directory(status) : place.extension() == ".h5";
+}
+
+/// @throws InputError when the folder is there and cannot be looked into
+void require_readable(const fs::path& folder)
+{
+  std::error_code error;
+  fs::directory_iterator(folder, error);
+  if (error && error != std::errc::no_such_file_or_directory)
+    throw InputError("--restart " + folder.string() + ": cannot be read: " +
+                     error.message() + ". Check the path and its permissions.");
 }
 
 Restart read_file(const fs::path& file)
@@ -30,6 +45,46 @@ Restart read_file(const fs::path& file)
                           ? "; there is no other checkpoint beside it that can be read"
                           : "; a good one is " + other.file.string()));
   }
+}
+
+/// The newest good checkpoint of a folder. Nothing behind which the run could not go back.
+/// @throws InputError
+Restart read_folder(const fs::path& place)
+{
+  const std::string in_front = "--restart " + place.string() + ": ";
+  dem::FoundCheckpoint newest = dem::newest_checkpoint(place);
+  std::vector<std::string> refused;
+  for (const dem::RefusedCheckpoint& r : newest.refused) {
+    refused.push_back(r.file.string() + ": " + r.reason);
+    if (!r.is_damaged)
+      throw InputError(
+          in_front + refused.back() + ". It may be whole, so the run does not go back " +
+          "behind it: make it readable" +
+          (newest.file.empty()
+               ? std::string(".")
+               : ", or take an older one with --restart " + newest.file.string() + "."));
+  }
+  if (newest.file.empty())
+    throw InputError(in_front + "no checkpoint can be read: " + joined(refused, "; "));
+  return {newest.file, place, std::move(newest.checkpoint), std::move(refused)};
+}
+
+/// On the first rank alone.
+std::optional<Restart> choose(const fs::path& place, const std::string& job)
+{
+  std::optional<Restart> found;
+  if (names_file(place))
+    found = read_file(place);
+  else {
+    require_readable(place);
+    if (dem::checkpoints_in(place).empty()) return found;
+    found = read_folder(place);
+  }
+  const std::string& of = found->checkpoint.label.job;
+  if (of != job)
+    throw InputError("--restart " + found->file.string() + ": is a checkpoint of mergel " +
+                     of + ", not of mergel " + job);
+  return found;
 }
 
 std::string shown(const std::string& value)
@@ -49,20 +104,19 @@ std::optional<Restart> find_restart(const fs::path& place, const std::string& jo
 {
   std::optional<Restart> found;
   if (place.empty()) return found;
-  if (!names_file(place)) {
-    if (dem::checkpoints_in(place).empty()) return found;
-    dem::FoundCheckpoint newest = dem::newest_checkpoint(place);
-    if (newest.file.empty())
-      throw InputError("--restart " + place.string() +
-                       ": no checkpoint can be read: " + joined(newest.refused, "; "));
-    found = Restart{newest.file, place, std::move(newest.checkpoint), newest.refused};
-  } else {
-    found = read_file(place);
-  }
-  const std::string& of = found->checkpoint.label.job;
-  if (of != job)
-    throw InputError("--restart " + found->file.string() + ": is a checkpoint of mergel " +
-                     of + ", not of mergel " + job);
+  on_first_rank([&] { found = choose(place, job); });
+  std::string file = found ? found->file.string() : "",
+              folder = found ? found->folder.string() : "";
+  share(file);
+  share(folder);
+  if (file.empty()) return found;
+  on_ranks(!is_first_rank(), [&] {
+    try {
+      found = Restart{file, folder, dem::read_checkpoint(file), {}};
+    } catch (const InputError& e) {
+      throw InputError("--restart " + file + ": " + e.what());
+    }
+  });
   return found;
 }
 
@@ -79,7 +133,8 @@ void read_case(CaseFile& file, const JobOptions& options,
     return;
   }
   const fs::path resolved = options.restart / "resolved.prm";
-  if (!fs::is_regular_file(resolved))
+  std::error_code error;
+  if (!fs::is_regular_file(resolved, error))
     throw InputError("--restart " + options.restart.string() +
                      ": holds neither a checkpoint nor a resolved.prm. Give the case file "
                      "to begin.");
@@ -112,9 +167,12 @@ void require_unfinished(const fs::path& folder)
   if (fs::exists(folder / "summary.json", error))
     found = "a finished run";
   else
-    for (const auto& entry : fs::directory_iterator(folder, error))
-      if (dem::is_checkpoint_name(entry.path().filename()))
-        found = "a run with checkpoints";
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      const fs::path name = entry->path().filename();
+      if (dem::is_checkpoint_name(name) || dem::is_checkpoint_name(name.stem()))
+        found = "a run with checkpoints"; // one set aside too
+    }
   require(found.empty(),
           "--restart " + folder.string() + ": holds " + found +
               ", and this one would begin again. Choose another folder with --output, or "
@@ -131,6 +189,37 @@ OutputFolder folder_to_begin_in(const JobOptions& options)
   if (begins_again) require_unfinished(options.output);
   return {options.output,
           options.overwrite || begins_again ? Earlier::overwrite : Earlier::keep};
+}
+
+OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart)
+{
+  std::error_code error;
+  const auto is_output = [&](const fs::path& folder) {
+    return fs::equivalent(options.output, folder, error);
+  };
+  if (restart && is_output(restart->folder)) return {options.output, Earlier::go_on};
+  if (restart)
+    return {options.output, options.overwrite ? Earlier::overwrite : Earlier::keep};
+  return folder_to_begin_in(options);
+}
+
+fs::path bring_along(const fs::path& checkpoint, const fs::path& folder)
+{
+  const fs::path there = folder / checkpoint.filename();
+  on_first_rank([&] {
+    std::error_code error;
+    if (fs::equivalent(checkpoint, there, error)) return;
+    dem::replace_file(there, [&](const fs::path& file) {
+      std::error_code failed;
+      fs::copy_file(checkpoint, file, fs::copy_options::overwrite_existing, failed);
+      if (failed)
+        throw NumericalError(there.string() + ": the checkpoint cannot be brought along: " +
+                             failed.message() +
+                             ". Check the permissions of both folders and the free space, "
+                             "or go on in the folder where it is, without --output.");
+    });
+  });
+  return there;
 }
 
 std::string report(const Restart& restart, const std::vector<CaseFile::Change>& changed)

@@ -15,13 +15,15 @@ struct Restart {
   std::filesystem::path file;   ///< the checkpoint
   std::filesystem::path folder; ///< results of the earlier run: where the file is
   dem::Checkpoint checkpoint;
-  std::vector<std::string> refused; ///< newer checkpoints that cannot be read, and why
+  std::vector<std::string> refused; ///< newer checkpoints that are damaged, and how
 };
 
 /// The checkpoint at `place`: the file, or the newest good one of a folder. Nothing when
-/// `place` is empty, or a folder without checkpoints: then the run begins.
+/// `place` is empty, or a folder without checkpoints: then the run begins. Collective: the
+/// first rank chooses for all.
 /// @throws InputError when what is there cannot be read, naming an older good one beside
-///   it; when it is of another job
+///   it; when a newer one cannot be read and is not damaged: it may be whole, for another
+///   user or program; when it is of another job
 std::optional<Restart> find_restart(const std::filesystem::path& place,
                                     const std::string& job);
 
@@ -43,6 +45,16 @@ std::vector<CaseFile::Change> check_case(const CaseFile& file, const Restart& re
 /// its first checkpoint.
 /// @throws InputError when the earlier run was finished or has a checkpoint
 OutputFolder folder_to_begin_in(const JobOptions& options);
+
+/// The folder of the run: that of the checkpoint, or one to begin in.
+/// @throws InputError as folder_to_begin_in()
+OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart);
+
+/// Bring the checkpoint into the folder where the run goes on, if that is another: a run that
+/// ends before its own first one can be restarted from there too. Returns where it is.
+/// Collective.
+std::filesystem::path bring_along(const std::filesystem::path& checkpoint,
+                                  const std::filesystem::path& folder);
 
 /// What the user should know: where the run goes on, what could not be read, what has
 /// changed.

@@ -76,7 +76,7 @@ void declare(CaseFile& file, RockCase& c)
   declare_motion(file, c);
 }
 
-void complete(const CaseFile& file, RockCase& c)
+void complete(CaseFile& file, RockCase& c)
 {
   dem::SpecimenSpec& s = c.specimen;
   fem::FarFieldSpec& f = c.far_field;

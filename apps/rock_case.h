@@ -40,6 +40,6 @@ void declare(CaseFile& file, RockCase& c);
 
 /// Fill what follows from the keys, and check what spans several of them.
 /// @throws InputError naming file, line and key
-void complete(const CaseFile& file, RockCase& c);
+void complete(CaseFile& file, RockCase& c);
 
 } // namespace mergel::apps

@@ -78,7 +78,7 @@ void refuse_sample(const CaseFile& file, const SpecimenKeys& k)
 }
 
 /// Make it, say what it is and write it.
-void make(const CaseFile& file, const SpecimenKeys& k, const OutputFolder& folder,
+void make(const CaseFile& file, const SpecimenKeys& k, OutputFolder& folder,
           const std::vector<std::filesystem::path>& inputs)
 {
   const dem::Sample sample = obtain_sample(file, k);
@@ -112,16 +112,21 @@ void help_sample(std::ostream& out)
 
 int run_sample(const JobOptions& options)
 {
-  const OutputFolder folder = folder_to_begin_in(options);
+  OutputFolder folder(options.output, Earlier::keep);
+  bool is_pile = false;
+  on_first_rank([&] { folder = folder_to_begin_in(options); });
+  on_every_rank([&] { is_pile = is_pile_case(options); });
   std::vector<std::filesystem::path> inputs;
   if (options.restart.empty()) inputs.push_back(options.case_file);
   CaseFile file;
-  if (is_pile_case(options)) {
+  if (is_pile) {
     PileCase c;
     declare(file, c);
-    read_case(file, options, std::nullopt);
-    complete(file, c);
-    refuse_sample(file, c.rock);
+    on_every_rank([&] {
+      read_case(file, options, std::nullopt);
+      complete(file, c);
+      refuse_sample(file, c.rock);
+    });
     if (!c.rock.table.empty()) inputs.push_back(c.rock.table);
     on_first_rank([&] { folder.check(inputs); });
     make_far_field(c.rock); // sets the faces around the side
@@ -130,9 +135,11 @@ int run_sample(const JobOptions& options)
   }
   SampleCase c;
   declare(file, c);
-  read_case(file, options, std::nullopt);
-  refuse_sample(file, c.specimen);
-  complete(file, c.specimen, c.contact);
+  on_every_rank([&] {
+    read_case(file, options, std::nullopt);
+    refuse_sample(file, c.specimen);
+    complete(file, c.specimen, c.contact);
+  });
   if (!c.specimen.table.empty()) inputs.push_back(c.specimen.table);
   on_first_rank([&] { folder.check(inputs); });
   make(file, c.specimen, folder, inputs);

@@ -1,10 +1,14 @@
 #include "apps/specimen_keys.h"
 
 #include "apps/progress.h"
+#include "apps/ranks.h"
 #include "dem/io/history.h"
 #include "dem/io/psd_file.h"
+#include "dem/io/seal.h"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 namespace mergel::apps {
@@ -86,6 +90,9 @@ void declare_sizes(CaseFile& file, SpecimenKeys& k)
   file.path("size table", k.table,
             "Sieve curve at S = 1: columns `diameter [mm]`, `passing [%]` by mass.",
             Default::none);
+  file.text("size table sum", k.table_sum,
+            "Checksum of that file, which a resolved case holds: a changed table is "
+            "refused. Empty: the table is taken as it is.");
 }
 
 void declare_upscaling(CaseFile& file, SpecimenKeys& k)
@@ -207,6 +214,22 @@ dem::Region region_of(const SpecimenKeys& k)
   return dem::PeriodicBox{k.edges};
 }
 
+/// Refuse a table that is not the one of the case, or let the resolved case hold its sum.
+void check_table(CaseFile& file, SpecimenKeys& k)
+{
+  std::ifstream in(k.table, std::ios::binary); // read before: it is there
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  const std::string sum = dem::hexadecimal(dem::fnv_1a(bytes));
+  if (!k.table_sum.empty() && k.table_sum != sum)
+    file.refuse(
+        "Specimen", "size table sum",
+        k.table.string() + " has " + sum +
+            ": it was changed since this case was resolved. Put the old table back, "
+            "or leave this key out to begin a run with the new one");
+  k.table_sum = sum;
+  file.resolve("Specimen", "size table sum", sum);
+}
+
 /// The key that would mend grains that are too large.
 const char* ratio_key(const SpecimenKeys& k)
 {
@@ -234,7 +257,7 @@ void declare(CaseFile& file, SpecimenKeys& k)
   declare_strengths(file, k.strengths);
 }
 
-void complete(const CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& contact)
+void complete(CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& contact)
 {
   dem::SpecimenSpec& s = k.specimen;
   s.contact = contact;
@@ -246,6 +269,7 @@ void complete(const CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& 
     if (k.sizes == Sizes::log_normal) file.refuse("Specimen", "spread", e.what());
     throw;
   }
+  if (k.sizes == Sizes::table) check_table(file, k);
   if (k.upscaling == Upscaling::uniform)
     s.scale = {k.S, k.S, 0.0, 0.0};
   else if (k.shape == Shape::periodic_box)
@@ -359,16 +383,18 @@ dem::Sample read_or_make(const CaseFile& file, const SpecimenKeys& k)
 {
   if (!k.sample.empty()) {
     dem::Sample sample;
-    try {
-      sample = dem::read_sample(k.sample);
-    } catch (const InputError& e) {
-      file.refuse("Specimen", "file", e.what());
-    }
-    const std::string differs = dem::difference(sample, recipe(k));
-    if (!differs.empty())
-      file.refuse("Specimen", "file",
-                  differs +
-                      "; make a new sample, or clear the key to make it for this run");
+    on_every_rank([&] {
+      try {
+        sample = dem::read_sample(k.sample);
+      } catch (const InputError& e) {
+        file.refuse("Specimen", "file", e.what());
+      }
+      const std::string differs = dem::difference(sample, recipe(k));
+      if (!differs.empty())
+        file.refuse("Specimen", "file",
+                    differs +
+                        "; make a new sample, or clear the key to make it for this run");
+    });
     return sample;
   }
 

@@ -25,6 +25,7 @@ struct SpecimenKeys {
   double exponent = 0.5;               ///< of a power law [-]
   double d_50 = unset, spread = unset; ///< of a log-normal law [m], [-]
   std::filesystem::path table;         ///< of a sieve curve
+  std::string table_sum;               ///< of its bytes; empty: as it is found
 
   Upscaling upscaling = Upscaling::graded;
   double S = unset; ///< the same everywhere
@@ -41,7 +42,7 @@ void declare(CaseFile& file, SpecimenKeys& k);
 /// Fill k.specimen from the keys and this far-field contact, and check it. The sides of a half
 /// cylinder are the far field's, which has no mesh yet: two of them, enough for the checks.
 /// @throws InputError naming file, line and key
-void complete(const CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& contact);
+void complete(CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& contact);
 
 /// Key and value of everything that fixes a specimen, in a fixed order.
 std::vector<std::pair<std::string, std::string>> recipe(const SpecimenKeys& k);

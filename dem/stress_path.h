@@ -60,6 +60,8 @@ struct AxisRule {
   enum class Kind { driven, fixed, held };
   Kind kind = Kind::fixed;
   double stress = 0.0; ///< held [Pa]
+
+  bool operator==(const AxisRule&) const = default;
 };
 
 /// One leg of a path and where it ends.
@@ -77,6 +79,8 @@ struct Leg {
   void check() const;
   /// The same of a leg that resumes another, which is not itself a resuming one.
   void check_after(const Leg& resumed) const;
+
+  bool operator==(const Leg&) const = default;
 };
 
 /// A leg being followed: plain state.

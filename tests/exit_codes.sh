@@ -51,6 +51,9 @@ ends "bond, a results folder with a name too long" 1 'cannot be created: File na
 ends "bond, a path with a name too long" 1 'cannot be read' bond "$bond" --set "Loading/path=$long" --output none
 kib=8 ends "bond, the disk is full" 2 'history\.csv: cannot be written any further' bond "$bond" --output full_bond
 
+ends "bond, a walltime" 1 'mergel bond: --walltime 4h: the job writes no checkpoints' bond "$bond" --walltime 4h --output none
+ends "sample, a walltime" 1 'mergel sample: --walltime 4h: the job writes no checkpoints' sample "$pile" --walltime 4h --output none
+
 ends "sample, done" 0 '' sample "$pile" "${tiny[@]}" --output sample
 kib=8 ends "sample, the disk is full" 2 'sample\.h5: cannot be written: File too large' sample "$pile" "${tiny[@]}" --output full_sample
 

@@ -20,9 +20,10 @@ tiny=(--set "Specimen/diameter=6 mm" --set "Specimen/height=6 mm" --set "Specime
 case_file=$root/apps/cases/pile_small.prm
 pile() { timeout 300 "$mergel" pile "$@"; }
 ranks() { local n=$1; shift; timeout 300 mpirun --oversubscribe -n "$n" "$mergel" pile "$@"; }
-checkpoints() { ls "$1"/checkpoint_*.h5 2>/dev/null | wc -l; }
+checkpoints() { compgen -G "$1/checkpoint_*.h5" | wc -l; }
+newest() { compgen -G "$1/checkpoint_*.h5" | sort | tail -1; }
 wait_for() { # until a file of this pattern is there
-  for _ in $(seq 3000); do compgen -G "$1" >/dev/null && return; sleep 0.05; done
+  for _ in $(seq 6000); do compgen -G "$1" >/dev/null && return; sleep 0.02; done
   fail "$1 never came: $(tail -3 log)"
 }
 same() {
@@ -71,7 +72,7 @@ same a
 grep -q 'stopped before the end of --walltime' log || fail "walltime: $(tail -3 log)"
 pile --restart b --output c >log || fail "another folder: $(tail -3 log)"
 same c
-[ -e b/checkpoint_*.h5 ] || fail "a restart into another folder changed the first"
+[ "$(checkpoints b)" -gt 0 ] || fail "a restart into another folder changed the first"
 
 # A full disk, as a file-size limit: no file can be written, then none as large as a checkpoint. The
 # limit is that of the ranks; their own shared memory is kept out of its way.
@@ -81,7 +82,7 @@ limited() { # blocks of 1024 bytes
 }
 for blocks in 8 150; do
   rm -rf d; cp -r b d
-  held=$(ls d/checkpoint_*.h5)
+  held=$(newest d)
   cp "$held" held.h5; cp d/history.csv held.csv
   code=$(code_of limited $blocks --restart d --set "Output/checkpoint every=20 steps")
   [ "$code" -eq 2 ] || fail "a file-size limit of $blocks kB: exit code $code: $(cat log)"
@@ -101,7 +102,7 @@ same d
 
 # A damaged newest checkpoint is told, and the older one taken.
 rm -rf e; cp -r b e
-older=$(basename "$(ls e/checkpoint_*.h5)")
+older=$(basename "$(newest e)")
 head -c 20000 "e/$older" >e/checkpoint_999999999999.h5
 [ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q 'truncated' log || fail "info of a damaged one: $(cat log)"
 [ "$(code_of pile --restart e/checkpoint_999999999999.h5)" -eq 1 ] || fail "a damaged one: $(cat log)"
@@ -116,12 +117,49 @@ grep -q "cannot be used: e/checkpoint_999999999999.h5: is no checkpoint" log || 
 grep -q 'Output/frames was 2, is now 1' log || fail "the change is not told: $(cat log)"
 cmp whole/history.csv e/history.csv || fail "the history differs"
 [ "$(ls e/fields | wc -l)" -eq 8 ] || fail "frames: $(ls e/fields)"
+grep -q 'set aside: e/checkpoint_999999999999.h5.aside' log && [ -e e/checkpoint_999999999999.h5.aside ] ||
+  fail "the damaged one was not kept: $(ls e)"
+
+# One that is not damaged is not gone behind: another user's, a newer program's, here a link to nowhere.
+rm -rf e; cp -r b e
+ln -s /nowhere e/checkpoint_999999999999.h5
+[ "$(code_of pile --restart e)" -eq 1 ] || fail "went back behind a newer checkpoint: $(cat log)"
+grep -q "there is no such file. It may be whole.*take an older one with --restart e/$older" log || fail "an unreadable one: $(cat log)"
+[ -L e/checkpoint_999999999999.h5 ] || fail "the unreadable one is gone"
+
+# What one rank cannot see ends the run on all of them, before anything is written.
+cp "$case_file" case.prm
+mkdir elsewhere
+blind() {
+  timeout 60 mpirun --oversubscribe -n 2 \
+    bash -c '[ "$OMPI_COMM_WORLD_RANK" = 0 ] || cd elsewhere; exec "$@"' blind "$mergel" pile "$@"
+}
+for arguments in "--restart b" "--restart b/$older" "case.prm"; do
+  # shellcheck disable=SC2086
+  [ "$(code_of blind $arguments --output none)" -eq 1 ] || fail "$arguments, seen by one rank of two: $(cat log)"
+  grep -q '^rank 1: .*\(there is no such file\|no such case file\)' log || fail "$arguments, seen by one rank of two: $(cat log)"
+  [ ! -e none ] || fail "$arguments, seen by one rank of two: something was written"
+done
+
+# One run at a time in a folder; a run that was killed is in nobody's way.
+rm -rf g; cp -r b g
+"$mergel" pile --restart g >log_of_first 2>&1 &
+first=$!
+wait_for "g/.mergel.lock"
+kill -STOP $first
+[ "$(code_of pile --restart g)" -eq 1 ] || fail "two runs in a folder: $(cat log)"
+grep -q "output folder g: another run (process $first on .*) is writing there" log || fail "two runs in a folder: $(cat log)"
+kill -KILL $first
+wait $first 2>/dev/null || true
+pile --restart g >log 2>&1 || fail "after a killed run: $(tail -3 log)"
+same g
+[ ! -e g/.mergel.lock ] || fail "the lock is left over"
 
 # Another folder can be restarted from the start: the checkpoint is brought along.
-name=$(basename "$(find b -name 'checkpoint_*.h5' | sort | tail -1)")
+name=$(basename "$(newest b)")
 [ "$(code_of pile --restart b --output f --set "Output/checkpoint every=never" --walltime "0.1 s")" -eq 2 ] ||
   fail "another folder, ended at once: $(tail -3 log)"
-[ -e "f/$name" ] || [ -n "$(find f -name 'checkpoint_*.h5')" ] || fail "no checkpoint came along: $(ls f)"
+[ "$(checkpoints f)" -gt 0 ] || fail "no checkpoint came along: $(ls f)"
 pile --restart f >log || fail "the other folder: $(tail -3 log)"
 same f
 
@@ -135,6 +173,8 @@ same f
 rm -rf e; cp -r b e; rm e/history.csv
 [ "$(code_of pile --restart e)" -eq 1 ] && grep -q 'history.csv: is missing' log || fail "a lost history: $(cat log)"
 [ "$(code_of pile --restart sample.h5)" -eq 1 ] && grep -q 'sample.h5: is no checkpoint' log || fail "a sample: $(cat log)"
+long=$(printf 'x%.0s' {1..300})
+[ "$(code_of pile --restart "$long")" -eq 1 ] && grep -q 'File name too long' log || fail "a long name: $(cat log)"
 [ "$(code_of pile --restart nowhere)" -eq 1 ] && grep -q 'holds neither a checkpoint nor' log || fail "nowhere: $(cat log)"
 "$mergel" info sample.h5 >info && grep -q 'porosity' info || fail "info of a sample: $(cat info)"
 echo "restart: all holds"

@@ -1,5 +1,7 @@
 #include "dem/io/checkpoint.h"
 
+#include "dem/io/seal.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <regex>
@@ -28,6 +30,12 @@ bool is_checkpoint_name(const fs::path& name)
 {
   static const std::regex form("checkpoint_[0-9]{12,}\\.h5");
   return std::regex_match(name.string(), form);
+}
+
+bool is_later(const fs::path& a, const fs::path& b)
+{
+  const std::string x = a.filename().string(), y = b.filename().string();
+  return x.size() != y.size() ? x.size() > y.size() : x > y;
 }
 
 void write_checkpoint(const fs::path& file, const CheckpointLabel& label, State mine,
@@ -62,19 +70,17 @@ std::vector<fs::path> checkpoints_in(const fs::path& folder)
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error))
     if (is_checkpoint_name(entry->path().filename())) found.push_back(entry->path());
-  const auto newer = [](const fs::path& a, const fs::path& b) {
-    const std::string x = a.filename().string(), y = b.filename().string();
-    return x.size() != y.size() ? x.size() > y.size() : x > y;
-  };
-  std::sort(found.begin(), found.end(), newer);
+  std::sort(found.begin(), found.end(), is_later);
   return found;
 }
 
-void keep_newest(const fs::path& folder, std::size_t n)
+void keep_newest(const fs::path& written, std::size_t n)
 {
-  const std::vector<fs::path> found = checkpoints_in(folder);
+  const fs::path folder = written.parent_path().empty() ? "." : written.parent_path();
   std::error_code ignored;
-  for (std::size_t k = n; k < found.size(); ++k) fs::remove(found[k], ignored);
+  std::size_t n_kept = 0;
+  for (const fs::path& file : checkpoints_in(folder))
+    if (!is_later(file, written) && ++n_kept > n) fs::remove(file, ignored);
 }
 
 FoundCheckpoint newest_checkpoint(const fs::path& folder)
@@ -85,8 +91,10 @@ FoundCheckpoint newest_checkpoint(const fs::path& folder)
       found.checkpoint = read_checkpoint(file);
       found.file = file;
       break;
+    } catch (const DamagedFile& e) {
+      found.refused.push_back({file, e.what(), true});
     } catch (const InputError& e) {
-      found.refused.push_back(file.string() + ": " + e.what());
+      found.refused.push_back({file, e.what(), false});
     }
   }
   return found;

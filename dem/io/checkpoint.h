@@ -24,6 +24,8 @@ struct Checkpoint {
 std::string checkpoint_name(std::uint64_t step);
 /// True for a name that checkpoint_name() gives.
 bool is_checkpoint_name(const std::filesystem::path& name);
+/// True when a is the name of a later step than b.
+bool is_later(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Write `mine`, each rank its part, and the label; see write_state().
 void write_checkpoint(const std::filesystem::path& file, const CheckpointLabel& label,
@@ -35,14 +37,22 @@ Checkpoint read_checkpoint(const std::filesystem::path& file);
 /// The checkpoints of a folder, the newest first; none of a folder that is not there.
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder);
 
-/// Remove all but the newest `n` of a folder. What cannot be removed stays.
-void keep_newest(const std::filesystem::path& folder, std::size_t n);
+/// Of the checkpoints up to the one just written, remove all but the newest `n`. What cannot be
+/// removed stays, and so does what bears the name of a later step.
+void keep_newest(const std::filesystem::path& written, std::size_t n);
+
+/// A checkpoint that cannot be read.
+struct RefusedCheckpoint {
+  std::filesystem::path file;
+  std::string reason;
+  bool is_damaged; ///< cut or changed; else it may be whole, for another user or program
+};
 
 /// A checkpoint that can be read, and why newer ones of its folder cannot.
 struct FoundCheckpoint {
   std::filesystem::path file; ///< empty: none can be read
   Checkpoint checkpoint;
-  std::vector<std::string> refused; ///< "<file>: <reason>", the newest first
+  std::vector<RefusedCheckpoint> refused; ///< the newest first
 };
 
 /// The newest of a folder that can be read.

@@ -493,7 +493,7 @@ void put(State& state, const Rock& rock)
   put_sums(state, "sums_on_walls", sums_of_all(copy));
 }
 
-void take(const State& state, Rock& rock)
+void take(State& state, Rock& rock)
 {
   const std::vector<std::uint64_t> bodies{rock.mirrors.size(), rock.planes.size(),
                                           rock.walls.size(), rock.piles.size()};
@@ -501,9 +501,12 @@ void take(const State& state, Rock& rock)
     State::refuse("bodies", "counts other walls or piles");
   rock.domain = Domain();
   rock.particles = take_grains(state);
+  state.forget("grain");
   const std::size_t n = rock.particles.size();
   rock.bonds = take_bonds(state, n);
+  state.forget("bond_");
   rock.contacts = take_contacts(state, n);
+  state.forget("contact_");
   const auto& cell = state.get_rows<double>("cell", 1, 6);
   rock.cell.size = vec_at(cell, 0);
   rock.cell.rate = vec_at(cell, 3);

@@ -20,9 +20,10 @@ namespace mergel::dem {
 void put(State& state, const Rock& rock);
 
 /// Put the kept state into a rock that has the walls, planes, mirrors and piles of its
-/// case. The rock is then whole: every rank has all of it, in ascending order.
+/// case. The rock is then whole: every rank has all of it, in ascending order. The arrays of
+/// grains, bonds and contacts are freed on the way: a rank need not hold all of it twice.
 /// @throws InputError when the arrays do not fit each other or the rock
-void take(const State& state, Rock& rock);
+void take(State& state, Rock& rock);
 
 /// Exact sums as whole numbers, words of 64 bits, the lowest first.
 void put_sums(State& state, const std::string& name, const std::vector<ExactWide*>& sums);

@@ -1,7 +1,5 @@
 #include "dem/io/seal.h"
 
-#include "dem/error.h"
-
 #include <cstring>
 #include <fstream>
 
@@ -89,14 +87,14 @@ std::string unsealed(const std::filesystem::path& file, const Seal& seal)
   std::string bytes = all_bytes(file);
   const std::string hdf5 = "\x89HDF\r\n\x1a\n", mark = mark_of(seal);
   if (bytes.compare(0, hdf5.size(), hdf5) != 0)
-    throw InputError("is no " + seal.kind + ": it is not an HDF5 file; " + seal.remedy);
+    throw DamagedFile("is no " + seal.kind + ": it is not an HDF5 file; " + seal.remedy);
   const std::size_t tail = mark.size() + digits;
   if (bytes.size() < tail || bytes.compare(bytes.size() - tail, mark.size(), mark) != 0)
-    throw InputError("is no " + seal.kind + ", or is truncated; " + seal.remedy);
+    throw DamagedFile("is no " + seal.kind + ", or is truncated; " + seal.remedy);
   const std::string sum = bytes.substr(bytes.size() - digits);
   bytes.resize(bytes.size() - tail);
   if (sum != hexadecimal(seal.of(bytes)))
-    throw InputError("is damaged (its checksum does not match); " + seal.remedy);
+    throw DamagedFile("is damaged (its checksum does not match); " + seal.remedy);
   return bytes;
 }
 

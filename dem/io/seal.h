@@ -3,6 +3,8 @@
 /// does not look beyond its own data.
 #pragma once
 
+#include "dem/error.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -20,6 +22,12 @@ std::uint64_t sum_of_words(std::string_view bytes);
 /// 16 hexadecimal digits.
 std::string hexadecimal(std::uint64_t number);
 
+/// The bytes of a file are not those that were sealed: it was cut, changed, or is another's.
+/// What cannot be read for another reason (permissions, a newer format) may be whole.
+struct DamagedFile : InputError {
+  using InputError::InputError;
+};
+
 struct Seal {
   std::string kind;   ///< "sample"
   std::string sum;    ///< name of the sum, as the mark tells it
@@ -33,8 +41,8 @@ std::string sealed(std::string bytes, const Seal& seal);
 void seal(const std::filesystem::path& file, const Seal& seal);
 
 /// The data of a sealed file, the seal taken off.
-/// @throws InputError, without the file's name, when there is no such file, it was not
-///   sealed so, or was changed since
+/// @throws DamagedFile, without the file's name, when it was not sealed so, or was changed
+///   since; InputError when it cannot be read
 std::string unsealed(const std::filesystem::path& file, const Seal& seal);
 
 } // namespace mergel::dem

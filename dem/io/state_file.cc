@@ -75,10 +75,13 @@ public:
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
-  /// Refuse at once what the disk has no room for: then nothing need be written.
-  void require_room(std::size_t bytes)
+  /// Take room on the disk. What there is no room for is refused at once: then nothing need
+  /// be written. A file that grows by it is held against the limit on its size too.
+  enum class Size { grows, stays };
+  void require_room(std::size_t bytes, Size size)
   {
-    if (::fallocate(number_, 0, 0, static_cast<off_t>(bytes)) != 0 &&
+    const int mode = size == Size::stays ? FALLOC_FL_KEEP_SIZE : 0;
+    if (::fallocate(number_, mode, 0, static_cast<off_t>(bytes)) != 0 &&
         (errno == ENOSPC || errno == EFBIG || errno == EDQUOT))
       fail(file_);
   }
@@ -173,6 +176,29 @@ StateArray read_any(hid_t file, const std::string& name)
   throw NumericalError("the type is wrong of " + name);
 }
 
+/// Lets HDF5 read a file's bytes where they are, instead of two copies of them.
+void read_in_place(hid_t access, std::string& bytes)
+{
+  H5FD_file_image_callbacks_t calls = {};
+  calls.udata = &bytes;
+  calls.image_malloc = [](std::size_t size, H5FD_file_image_op_t, void* held) -> void* {
+    auto& all = *static_cast<std::string*>(held);
+    return size == all.size() ? all.data() : nullptr;
+  };
+  calls.image_memcpy = [](void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) {
+    return to; // it is there
+  };
+  calls.image_realloc = [](void*, std::size_t, H5FD_file_image_op_t, void*) -> void* {
+    return nullptr; // what is read does not grow
+  };
+  calls.image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
+  calls.udata_copy = [](void* held) { return held; };
+  calls.udata_free = [](void*) -> herr_t { return 0; };
+  if (H5Pset_file_image_callbacks(access, &calls) < 0 ||
+      H5Pset_file_image(access, bytes.data(), bytes.size()) < 0)
+    throw NumericalError("HDF5 cannot read from memory");
+}
+
 herr_t add_name(hid_t, const char* name, const H5L_info_t*, void* names)
 {
   static_cast<std::vector<std::string>*>(names)->emplace_back(name);
@@ -240,8 +266,10 @@ void write_state(const fs::path& file, const std::string& kind, int version,
     all_or_none(domain, [&] {
       if (domain.rank() != 0) return;
       fs::remove(path); // of a run that was killed
-      Descriptor(path, file).require_room(bytes);
+      Descriptor(path, file).require_room(bytes, Descriptor::Size::grows);
       begin = lay_out(path, kind, version, mine, rows);
+      // HDF5 begins anew and gives the room back: take it again before the rows come.
+      Descriptor(path, file).require_room(bytes, Descriptor::Size::stays);
     });
     begin = domain.gather(begin);
     all_or_none(domain, [&] {
@@ -291,10 +319,9 @@ State read_state(const fs::path& path, const std::string& kind, int version)
     // From memory: what is read is what was summed. HDF5 wants a name that no file has.
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "choose an access");
     H5Pset_fapl_core(access, 1 << 20, false);
-    H5Pset_file_image(access, bytes.data(), bytes.size());
+    read_in_place(access, bytes);
     const Handle file(H5Fopen((path / "in memory").c_str(), H5F_ACC_RDONLY, access),
                       H5Fclose, "open it");
-    bytes = {};
     if (const std::string format = read_format(file); format != "mergel " + kind)
       throw InputError("is a " + format + ", no mergel " + kind);
     int found = 0;

@@ -83,6 +83,11 @@ public:
     return {chars.begin(), chars.end()};
   }
   bool has(const std::string& name) const { return arrays_.contains(name); }
+  /// Free the arrays whose names begin so.
+  void forget(const std::string& beginning)
+  {
+    std::erase_if(arrays_, [&](const auto& a) { return a.first.starts_with(beginning); });
+  }
   [[noreturn]] static void refuse(const std::string& name, const std::string& why);
 
   const std::map<std::string, StateArray>& arrays() const { return arrays_; }
@@ -102,8 +107,9 @@ void write_state(const std::filesystem::path& file, const std::string& kind, int
                  const State& mine, const Domain& domain);
 
 /// @param kind what the file must be, for example "checkpoint"
-/// @throws InputError, without the file's name in front, when it is missing, of another
-///   kind, damaged, truncated, of another version, or holds a number that is not finite
+/// @throws DamagedFile (dem/io/seal.h), without the file's name in front, when it is
+///   truncated, changed or of another kind; InputError when it is missing, may not be read,
+///   is of another version, or holds a number that is not finite
 State read_state(const std::filesystem::path& file, const std::string& kind, int version);
 
 } // namespace mergel::dem

@@ -52,7 +52,7 @@ void go_on(dem::Rock& rock)
 }
 
 /// Whether the state is one of this rock. @throws BrokenPromise
-bool is_taken(const dem::State& state)
+bool is_taken(dem::State state)
 {
   static const dem::Rock whole = dem::test::rock_with_everything();
   dem::Rock rock = whole;

@@ -168,7 +168,7 @@ void save(const apps::WorkingRock& w, const Servo& servo, const std::string& fil
 
 void restore(apps::WorkingRock& w, Servo& servo, const std::string& file)
 {
-  const Checkpoint c = read_checkpoint(file);
+  Checkpoint c = read_checkpoint(file);
   take(c.state, w.rock);
   w.n_steps = c.label.step;
   w.dt = c.state.get<double>("steps")[0];

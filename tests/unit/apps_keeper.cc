@@ -3,12 +3,15 @@
 #include "apps/case_file.h"
 #include "dem/error.h"
 #include "dem/io/history.h"
+#include "dem/step.h"
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <sstream>
 #include <unistd.h>
 
@@ -111,6 +114,55 @@ TEST_CASE("SIGTERM and the end of the walltime stop a run behind a checkpoint",
       {.folder = folder.path, .job = "pile", .case_text = "", .every = {}, .end = 0.0});
   CHECK_THROWS_WITH(steps_written(late, folder.path, 30),
                     Contains("stopped before the end of --walltime at step 10"));
+}
+
+TEST_CASE(
+    "The first checkpoint before the end of the walltime gets the time of a slow disk",
+    "[unit][apps]")
+{
+  const Folder folder;
+  Keeper keeper({.folder = folder.path,
+                 .job = "pile",
+                 .case_text = "",
+                 .every = {},
+                 .end = dem::wall_clock() + 12.0});
+  const auto put_80_MB = [](dem::State& state) {
+    state.add("x", std::vector<double>(10'000'000, 1.0));
+  };
+  // 4 s at 20 MB/s, twice, and the margin of 2 s leave 2 s: no cause to stop yet.
+  keeper.after_step(dem::Domain(), {10, 1e-6, "driving"}, put_80_MB);
+  CHECK(keeper.n_written() == 0);
+  Keeper late({.folder = folder.path,
+               .job = "pile",
+               .case_text = "",
+               .every = {},
+               .end = dem::wall_clock() + 9.0});
+  CHECK_THROWS_WITH(late.after_step(dem::Domain(), {10, 1e-6, "driving"}, put_80_MB),
+                    Contains("stopped before the end of --walltime at step 10"));
+}
+
+TEST_CASE("A failure of a library or of memory names the last good checkpoint",
+          "[unit][apps]")
+{
+  const Folder folder;
+  const Keeper keeper({.folder = folder.path,
+                       .job = "pile",
+                       .case_text = "",
+                       .every = {},
+                       .restarted_from = "earlier.h5"});
+  const auto rethrown = [&](const auto& error) {
+    try {
+      throw error;
+    } catch (...) {
+      keeper.rethrow_with_remedy();
+    }
+  };
+  CHECK_THROWS_WITH(rethrown(std::bad_alloc()),
+                    Contains("out of memory") && Contains("checkpoint is earlier.h5"));
+  CHECK_THROWS_WITH(rethrown(NumericalError("a NaN")),
+                    Contains("a NaN; the last good checkpoint is earlier.h5"));
+  CHECK_THROWS_AS(rethrown(InputError("bad")), InputError);
+  CHECK_THROWS_AS(rethrown(std::out_of_range("at 7")), std::out_of_range);
 }
 
 TEST_CASE("A checkpoint that cannot be written names the last good one", "[unit][apps]")

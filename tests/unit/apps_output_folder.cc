@@ -70,7 +70,7 @@ std::string refusal(const fs::path& folder, Earlier earlier,
     }
     return "accepted";
   };
-  const OutputFolder output(folder, earlier);
+  OutputFolder output(folder, earlier);
   const std::string by_check = message([&] { output.check(inputs); });
   if (by_check != "accepted") CHECK(message([&] { output.commit(inputs); }) == by_check);
   return by_check;
@@ -87,11 +87,12 @@ const std::vector<std::string> own = {
 TEST_CASE("check() changes nothing and commit() makes the folder", "[unit][apps]")
 {
   const Folder folder;
-  const OutputFolder output(folder.path / "results" / "pile", Earlier::keep);
+  OutputFolder output(folder.path / "results" / "pile", Earlier::keep);
   output.check();
   CHECK(tree(folder.path).empty());
   output.commit();
-  CHECK(tree(folder.path) == std::vector<std::string>{"results", "results/pile"});
+  CHECK(tree(folder.path) ==
+        std::vector<std::string>{"results", "results/pile", "results/pile/.mergel.lock"});
   output.commit(); // an empty folder is as good as none
   CHECK(output.path() == folder.path / "results" / "pile");
 }
@@ -138,13 +139,13 @@ TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps
   fs::create_symlink(folder.path / "precious", results / "link");
   const auto before = tree(folder.path);
 
-  const OutputFolder output(results, Earlier::overwrite);
+  OutputFolder output(results, Earlier::overwrite);
   output.check();
   CHECK(tree(folder.path) == before);
 
   output.commit();
   std::vector<std::string> expected = others;
-  expected.insert(expected.end(), {"fields", "link", "more"});
+  expected.insert(expected.end(), {".mergel.lock", "fields", "link", "more"});
   std::sort(expected.begin(), expected.end());
   CHECK(tree(results) == expected);
   CHECK(fs::exists(folder.path / "precious" / "data"));
@@ -217,17 +218,38 @@ TEST_CASE("What a run wrote after its checkpoint is cut back, and nothing else",
        {"history.csv", "resolved.prm", "summary.json", "notes.txt", "damage.png",
         "checkpoint_000000000100.h5", "checkpoint_000000000200.h5",
         "checkpoint_000000000300.h5", ".checkpoint_000000000400.partial.h5",
-        "fields/particles_0000.vtp", "fields/particles_0001.vtp",
-        "fields/far_field_0001.vtu", "fields/.bonds_0001.partial.vtp", "fields/mine.vtp"})
+        "fields/particles_99999999999999999999999.vtp", "fields/particles_0000.vtp",
+        "fields/particles_0001.vtp", "fields/far_field_0001.vtu",
+        "fields/.bonds_0001.partial.vtp", "fields/mine.vtp"})
     touch(folder.path / file);
-  const OutputFolder out(folder.path, Earlier::go_on);
+  OutputFolder out(folder.path, Earlier::go_on);
   out.check();
   out.commit();
-  CHECK(tree(folder.path).size() == 15); // with fields itself
-  out.cut_back(1, 200);
+  CHECK(tree(folder.path).size() == 17); // with fields itself and the lock
+  const fs::path aside = folder.path / "checkpoint_000000000300.h5.aside";
+  CHECK(out.cut_back(1, 200) == std::vector<fs::path>{aside});
   CHECK(tree(folder.path) ==
-        std::vector<std::string>{"checkpoint_000000000100.h5", "checkpoint_000000000200.h5",
-                                 "damage.png", "fields", "fields/mine.vtp",
-                                 "fields/particles_0000.vtp", "history.csv", "notes.txt",
-                                 "resolved.prm"});
+        std::vector<std::string>{
+            ".mergel.lock", "checkpoint_000000000100.h5", "checkpoint_000000000200.h5",
+            "checkpoint_000000000300.h5.aside", "damage.png", "fields", "fields/mine.vtp",
+            "fields/particles_0000.vtp", "history.csv", "notes.txt", "resolved.prm"});
+}
+
+TEST_CASE("A folder where a run is writing is refused to another until it ends",
+          "[unit][apps]")
+{
+  const Folder folder;
+  std::ofstream(folder.path / ".mergel.lock") << "of a run that was killed";
+  {
+    OutputFolder output(folder.path, Earlier::go_on);
+    output.commit();
+    output.commit();
+    CHECK_THAT(FolderLock::holder(folder.path),
+               Contains("another run (process " + std::to_string(getpid())));
+    CHECK_THROWS_WITH(require_no_run(folder.path, 0.0),
+                      Contains("is writing there. Wait for it to end"));
+    CHECK_THROWS_AS(FolderLock(folder.path, 0.0), InputError);
+  }
+  CHECK(FolderLock::holder(folder.path).empty());
+  CHECK(tree(folder.path).empty());
 }

@@ -82,13 +82,15 @@ TEST_CASE("A library's long message becomes one line without its stack trace",
 {
   const std::string cause =
       "An error occurred in line <9> of file <a.cc> in function f() The name and call "
-      "sequence of the exception was: ExcX() Additional information: Bad - luck.";
-  const auto [code, printed] = thrown(ManyLines("ExcX()"));
+      "sequence of the exception was: ExcInternalError() Additional information: Bad - "
+      "luck.";
+  const auto [code, printed] = thrown(ManyLines("ExcInternalError()"));
   CHECK(code == 3);
   CHECK(printed == "mergel: internal error: " + cause +
                        " Please report this with the case file and the command line.\n");
   CHECK(thrown(ManyLines("SolverControl::NoConvergence(9, 1.)")).code == 2);
   CHECK(thrown(ManyLines("ExcFileNotOpen(name)")).code == 2);
+  CHECK(thrown(ManyLines("ExcPETScError(55)")).code == 2);
   CHECK(thrown(InputError("a\nb")).printed == "a b\n");
   CHECK(thrown(InputError("")).printed == "no message\n");
 }

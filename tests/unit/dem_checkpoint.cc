@@ -96,7 +96,7 @@ TEST_CASE("a rock goes on from a checkpoint with the same bits", "[unit][dem]")
   write_checkpoint(file, label(), kept(rock), Domain());
   for (int k = 0; k < 100; ++k) step(rock);
 
-  const Checkpoint c = read_checkpoint(file);
+  Checkpoint c = read_checkpoint(file);
   CHECK(c.label.job == "pile");
   CHECK(c.label.stage == "driving");
   CHECK(c.label.case_text == label().case_text);
@@ -235,10 +235,23 @@ TEST_CASE("the newest checkpoint that can be read is found, and the newer ones a
   const FoundCheckpoint found = newest_checkpoint(folder.path);
   CHECK(found.file == folder.path / checkpoint_name(1000));
   REQUIRE(found.refused.size() == 1);
-  CHECK(found.refused.front().find(checkpoint_name(20000) + ": is no checkpoint, or is") !=
-        std::string::npos);
-  keep_newest(folder.path, 2);
-  CHECK(checkpoints_in(folder.path) ==
-        std::vector<fs::path>{folder.path / checkpoint_name(20000),
-                              folder.path / checkpoint_name(1000)});
+  CHECK(found.refused.front().file == folder.path / checkpoint_name(20000));
+  CHECK(found.refused.front().reason.find("is no checkpoint, or is") == 0);
+  CHECK(found.refused.front().is_damaged);
+  // A whole one that another program wrote is told from a damaged one.
+  write_state(folder.path / checkpoint_name(20000), "checkpoint", 2, State(0), Domain());
+  CHECK_FALSE(newest_checkpoint(folder.path).refused.front().is_damaged);
+}
+
+TEST_CASE("the checkpoint just written is kept beside later names that were left over",
+          "[unit][dem]")
+{
+  const Folder folder;
+  for (const std::uint64_t step : {100u, 200u, 300u, 20000u, 30000u})
+    std::ofstream(folder.path / checkpoint_name(step)) << "x";
+  keep_newest(folder.path / checkpoint_name(300), 2);
+  std::vector<fs::path> kept;
+  for (const std::uint64_t step : {30000u, 20000u, 300u, 200u})
+    kept.push_back(folder.path / checkpoint_name(step));
+  CHECK(checkpoints_in(folder.path) == kept);
 }

@@ -188,7 +188,7 @@ fig8() {
 # Far-field contact of the loose rock: a specimen for each g_a, which is part of generation.
 fig9b() {
   local f g
-  for g in 0 0.01 0.1 0.2; do specimen "loose_ga$g" loose "Contact/activation gap=$(times 0.066 $g) mm"; done
+  for g in 0 0.01 0.1 0.2; do specimen "loose_ga$g" loose "Contact/activation gap=$(times 0.066 $g) mm"; done # pressed at 0.2
   all_done
   for f in "${flows[@]}"; do
     for g in 0 0.01 0.1 0.2; do

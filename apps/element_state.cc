@@ -1,0 +1,211 @@
+/// The state of an element run and what it has recorded, as named arrays, and back.
+#include "apps/element_run.h"
+#include "dem/distribute.h"
+#include "dem/io/rock_state.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace mergel::apps {
+
+namespace {
+
+/// Pointers to the numbers of a struct, in a fixed order; `Self` may be const.
+template <class T, class Self>
+using NumbersOf = std::vector<std::conditional_t<std::is_const_v<Self>, const T, T>*>;
+
+template <class Numbers, class Matrix>
+void append(Numbers& all, Matrix& m)
+{
+  for (Eigen::Index k = 0; k < m.size(); ++k) all.push_back(m.data() + k);
+}
+
+template <class Numbers, class Book>
+void append_book(Numbers& all, Book& e)
+{
+  all.insert(all.end(), {&e.kinetic, &e.bonds, &e.contacts, &e.walls, &e.mirror, &e.gravity,
+                         &e.wall_work, &e.pile_work, &e.cell_work, &e.slip, &e.plastic,
+                         &e.residue, &e.lock, &e.damping});
+}
+
+template <class Self>
+NumbersOf<double, Self> numbers_of(Self& s)
+{
+  auto& c = s.course;
+  NumbersOf<double, Self> all{&s.dt,
+                              &s.dt_before,
+                              &s.time,
+                              &s.since_record,
+                              &s.farthest,
+                              &s.tension,
+                              &s.gross_work,
+                              &s.last_work,
+                              &s.greatest_rate,
+                              &s.servo.limit,
+                              &s.servo.steps,
+                              &c.at_zero,
+                              &c.slope,
+                              &c.direction,
+                              &c.goal,
+                              &c.driven_at_start,
+                              &c.strain_at_start,
+                              &c.value_at_start,
+                              &c.strain_to_return,
+                              &c.remaining};
+  for (auto& rule : c.rules) all.push_back(&rule.stress);
+  for (auto* v : {&s.size_0, &s.stress_sum, &s.held_sum, &s.stiffness_0, &s.servo.integral,
+                  &s.servo.stiffness, &c.size_0, &c.offset})
+    for (int a = 0; a < 3; ++a) all.push_back(&(*v)[a]);
+  append_book(all, s.start);
+  return all;
+}
+
+template <class Self>
+NumbersOf<std::size_t, Self> counts_of(Self& s)
+{
+  return {&s.leg, &s.n_steps, &s.n_in_leg, &s.n_held, &s.n_stress, &s.servo.n_limited};
+}
+
+/// Choices of a course: numbers of enumerators, 0 or 1 of flags.
+std::vector<std::uint64_t> choices_of(const dem::Course& c)
+{
+  std::vector<std::uint64_t> all{
+      static_cast<std::uint64_t>(c.drive), static_cast<std::uint64_t>(c.follow),
+      static_cast<std::uint64_t>(c.quantity), c.returns, c.is_approaching};
+  for (const dem::AxisRule& rule : c.rules)
+    all.push_back(static_cast<std::uint64_t>(rule.kind));
+  return all;
+}
+
+template <class Choice>
+Choice choice_at(const std::vector<std::uint64_t>& all, std::size_t k, Choice last)
+{
+  if (all[k] > static_cast<std::uint64_t>(last))
+    dem::State::refuse("element_choices", "names what there is not");
+  return static_cast<Choice>(all[k]);
+}
+
+void take_choices(const std::vector<std::uint64_t>& all, dem::Course& c)
+{
+  c.drive = choice_at(all, 0, dem::Course::Drive::y);
+  c.follow = choice_at(all, 1, dem::Course::Follow::each);
+  c.quantity = choice_at(all, 2, dem::Quantity::driven_stress);
+  c.returns = choice_at(all, 3, true);
+  c.is_approaching = choice_at(all, 4, true);
+  for (std::size_t a = 0; a < 3; ++a)
+    c.rules[a].kind = choice_at(all, 5 + a, dem::AxisRule::Kind::held);
+}
+
+template <class Self>
+NumbersOf<double, Self> record_numbers_of(Self& r)
+{
+  auto& a = r.averages;
+  NumbersOf<double, Self> all{
+      &r.time,       &r.driven_strain, &r.energy_error,      &r.inertial_number,
+      &r.unbalanced, &a.skew,          &a.bond_coordination, &a.contact_coordination,
+      &a.porosity,   &a.void_ratio};
+  for (auto* state : {&r.whole, &r.of_leg})
+    for (auto* v : {&state->stress, &state->strain})
+      for (int k = 0; k < 3; ++k) all.push_back(&(*v)[k]);
+  for (int k = 0; k < 3; ++k) all.push_back(&a.traction[k]);
+  append(all, a.stress);
+  append(all, a.bond_fabric);
+  append(all, a.contact_fabric);
+  append_book(all, r.book);
+  return all;
+}
+
+std::size_t n_record_numbers()
+{
+  const ElementRecord any;
+  return record_numbers_of(any).size();
+}
+
+constexpr std::size_t record_counts = 3 + dem::n_break_modes;
+
+template <class Number>
+std::vector<std::remove_const_t<Number>> values_at(const std::vector<Number*>& all)
+{
+  std::vector<std::remove_const_t<Number>> values;
+  for (const Number* a : all) values.push_back(*a);
+  return values;
+}
+
+template <class Number, class Value>
+void take_values(const std::vector<Number*>& all, const Value* from)
+{
+  for (std::size_t k = 0; k < all.size(); ++k) *all[k] = from[k];
+}
+
+} // namespace
+
+void ElementRun::put(dem::State& state) const
+{
+  dem::put(state, state_.rock);
+  state.add_common("element_numbers", values_at(numbers_of(state_)));
+  const std::vector<std::size_t> counts = values_at(counts_of(state_));
+  state.add_common("element_counts",
+                   std::vector<std::uint64_t>(counts.begin(), counts.end()));
+  state.add_common("element_choices", choices_of(state_.course));
+  state.add_common<double>("element_grains", {d_, rho_});
+}
+
+ElementRun::ElementRun(const ElementCase& c, dem::State& state) : case_(c)
+{
+  const auto numbers = numbers_of(state_);
+  take_values(numbers, state.get_rows<double>("element_numbers", numbers.size()).data());
+  const auto counts = counts_of(state_);
+  take_values(counts,
+              state.get_rows<std::uint64_t>("element_counts", counts.size()).data());
+  if (state_.leg >= c.legs.size())
+    dem::State::refuse("element_counts", "names a leg that there is not");
+  take_choices(state.get_rows<std::uint64_t>("element_choices", 8), state_.course);
+  const auto& grains = state.get_rows<double>("element_grains", 2);
+  d_ = grains[0];
+  rho_ = grains[1];
+
+  dem::Rock& r = state_.rock;
+  dem::PeriodicCell first; // strengths are those of the cell before the first leg
+  first.size = state_.size_0;
+  r.material = resolved_materials(c, {{}, first, {}});
+  r.motion.damping = c.damping;
+  r.motion.free_rotation = c.free_rotation;
+  dem::take(state, r);
+  dem::draw_strengths(c.specimen.strengths, r.particles);
+  r.list = dem::VerletList(r.material.contact.g_a, list_skin(r.particles));
+  dem::share_out(r, MPI_COMM_WORLD);
+  dem::rebuild_lists(r);
+}
+
+void put(dem::State& state, const std::vector<ElementRecord>& records)
+{
+  std::vector<double> numbers;
+  std::vector<std::uint64_t> counts;
+  for (const ElementRecord& r : records) {
+    for (const double* a : record_numbers_of(r)) numbers.push_back(*a);
+    counts.insert(counts.end(), {r.leg, r.is_approach, r.broken});
+    counts.insert(counts.end(), r.broken_by.begin(), r.broken_by.end());
+  }
+  state.add_common("record_numbers", std::move(numbers), n_record_numbers());
+  state.add_common("record_counts", std::move(counts), record_counts);
+}
+
+std::vector<ElementRecord> take_records(const dem::State& state)
+{
+  const std::size_t n_numbers = n_record_numbers();
+  const auto& counts = state.get<std::uint64_t>("record_counts", record_counts);
+  std::vector<ElementRecord> records(counts.size() / record_counts);
+  const auto& numbers = state.get_rows<double>("record_numbers", records.size(), n_numbers);
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    ElementRecord& r = records[k];
+    take_values(record_numbers_of(r), &numbers[k * n_numbers]);
+    const std::uint64_t* n = &counts[k * record_counts];
+    r.leg = n[0];
+    r.is_approach = n[1] != 0;
+    r.broken = n[2];
+    std::copy_n(n + 3, dem::n_break_modes, r.broken_by.begin());
+  }
+  return records;
+}
+
+} // namespace mergel::apps
