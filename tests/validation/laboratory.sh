@@ -95,14 +95,14 @@ bands() {
     for S in 2 10; do run "bands/ucs_S${S}_$s" rock "rock_S${S}_$s" "compression to axial strain = 2 %"; done
   done
   all_done
-  header bands flow seed "E [Pa]" nu "UCS [Pa]" "tensile strength [Pa]" "isotropic yield [Pa]" "first peak [Pa]" \
+  header bands flow seed "E [Pa]" nu "UCS [Pa]" "tensile strength [Pa]" "isotropic yield [Pa]" "first peak [Pa]" "dip after it [Pa]" \
     "peak q at 1 MPa [Pa]" "minimum q at 1 MPa [Pa]" "q/p at 1 MPa" "peak q at 4 MPa [Pa]" "q at 18 % at 4 MPa [Pa]" "q/p at 4 MPa" \
     "p over unbonded at 25 MPa"
   for f in "${flows[@]}"; do
     for s in "${seeds[@]}"; do
       row "$f" "$s" "$(value "bands/ucs_${f}_$s" "Young's modulus")" "$(value "bands/ucs_${f}_$s" "Poisson's ratio")" \
         "$(value "bands/ucs_${f}_$s" UCS)" "$(value "bands/tension_${f}_$s" "tensile strength")" \
-        "$(value "bands/iso_${f}_$s" "isotropic yield")" "$(value "bands/iso_${f}_$s" "first peak before a collapse")" \
+        "$(value "bands/iso_${f}_$s" "isotropic yield")" "$(value "bands/iso_${f}_$s" "first peak before a collapse")" "$(dip "bands/iso_${f}_$s")" \
         "$(value "bands/tx1_${f}_$s" "largest q")" "$(value "bands/tx1_${f}_$s" "minimum after the peak")" "$(value "bands/tx1_${f}_$s" "q/p at the end")" \
         "$(value "bands/tx4_${f}_$s" "largest q")" "$(value "bands/tx4_${f}_$s" "q at the end")" "$(value "bands/tx4_${f}_$s" "q/p at the end")" \
         "$(over_unbonded "bands/iso_${f}_$s" "bands/unbonded_$s")"
@@ -117,11 +117,23 @@ bands() {
     done
   done
 }
-# p of a rock over p of the unbonded one at the void ratio that this has at 25 MPa
+# Where p falls after its first peak by 2 %, how far: the least p before it is as high again
+dip() {
+  awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+    { p = $at["p [Pa]"] }
+    falls && p > top { exit }
+    p > top { top = p; next }
+    p < 0.98 * top { falls = 1; if (!low || p < low) low = p }
+    END { print low ? low : "nan" }' "$1/history.csv"
+}
+# p of a rock near 25 MPa over p of the unbonded one at the same void ratio
 over_unbonded() {
-  local e
+  local e p
   e=$(at "$2" "void ratio [-]" "p [Pa]" 24.9e6)
-  awk -v a="$(at "$1" "p [Pa]" "void ratio [-]" "$e")" 'BEGIN { print a / 24.9e6 }'
+  p=$(at "$1" "p [Pa]" "void ratio [-]" "$e")
+  if [ "$p" != nan ]; then awk -v p="$p" 'BEGIN { print p / 24.9e6 }'; return; fi
+  e=$(at "$1" "void ratio [-]" "p [Pa]" 24.9e6)
+  awk -v b="$(at "$2" "p [Pa]" "void ratio [-]" "$e")" 'BEGIN { print b == "nan" ? b : 24.9e6 / b }'
 }
 
 # Isotropic and triaxial compression of the calibrated rock, without the membrane.
