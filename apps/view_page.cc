@@ -224,16 +224,15 @@ void Page::save(const std::filesystem::path& png)
   });
 }
 
-double Axis::share(double value) const
+double Axis::at(double start, double length, double value) const
 {
-  if (is_logarithmic) return std::log(value / from) / std::log(to / from);
-  return (value - from) / (to - from);
+  if (is_logarithmic) return start + length * std::log(value / from) / std::log(to / from);
+  return start + length * (value - from) / (to - from);
 }
 
 Pixel Panel::at(double x_value, double y_value) const
 {
-  return {box.left + box.width() * x.share(x_value),
-          box.bottom + box.height() * y.share(y_value)};
+  return {x.at(box.left, box.width(), x_value), y.at(box.bottom, box.height(), y_value)};
 }
 
 std::vector<double> round_ticks(double from, double to, int n)

@@ -86,8 +86,8 @@ struct Axis {
   std::string title; ///< with its unit; empty: the axis shows ticks only
   bool is_logarithmic = false;
 
-  /// Where a value lies: 0 at `from`, 1 at `to`.
-  double share(double value) const;
+  /// Where a value lies on a line of this start and length.
+  double at(double start, double length, double value) const;
 };
 
 struct Panel {
@@ -105,8 +105,8 @@ std::vector<double> round_ticks(double from, double to, int n);
 /// Every 1 to 9 times a power of ten in [from, to], 0 < from < to.
 std::vector<double> decade_ticks(double from, double to);
 
-/// Whether a tick of a logarithmic axis gets a number: 1, 2 and 5 times a power of ten; over
-/// more than two decades the powers of ten alone.
+/// Whether a tick of a logarithmic axis gets a number: 1, 2 and 5 times a power of ten;
+/// over more than two decades the powers of ten alone.
 bool has_number(double tick, const Axis& axis);
 
 /// "12", "0.5", with a true minus sign.
