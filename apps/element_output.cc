@@ -459,7 +459,8 @@ void print_summary(const std::filesystem::path& folder, const ElementSummary& s)
       << s.n_particles << " grains, " << s.n_steps << " steps, "
       << 1e9 * s.seconds / static_cast<double>(s.n_steps * s.n_particles)
       << " ns a grain and step, whole run " << duration_text(s.seconds)
-      << "\nresults: " << folder.string() << " (history.csv, summary.json)\n";
+      << "\nresults: " << folder.string()
+      << " (history.csv, summary.json); pictures: mergel-view " << folder.string() << '\n';
 }
 
 } // namespace mergel::apps

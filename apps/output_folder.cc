@@ -24,10 +24,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 13> own_files{
-    "history.csv",   "resolved.prm",     "summary.json",  "sample.h5", "damage.png",
-    "load.png",      "displacement.png", "particles.pvd", "bonds.pvd", "pile.pvd",
-    "far_field.pvd", "loads.png",        "surface.png"};
+constexpr std::array<std::string_view, 16> own_files{
+    "history.csv", "resolved.prm", "summary.json",     "sample.h5",
+    "damage.png",  "load.png",     "displacement.png", "particles.pvd",
+    "bonds.pvd",   "pile.pvd",     "far_field.pvd",    "loads.png",
+    "surface.png", "element.png",  "isotropic.png",    "curve.png"};
 constexpr std::string_view own_folder = "fields";
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& message)

@@ -22,8 +22,9 @@ enum class Earlier {
 /// mergel's own files in it, and the marks of an earlier run: history.csv, resolved.prm,
 /// summary.json, sample.h5, the four series particles, bonds, pile and far_field (.pvd, and
 /// their numbered files in fields/), mergel-view's damage.png, load.png, displacement.png,
-/// loads.png and surface.png, the checkpoints checkpoint_*.h5 and *.h5.aside; also their
-/// temporary files (dem/io/atomic_file.h). fields/ itself goes when nothing else is in it.
+/// loads.png, surface.png, element.png, isotropic.png and curve.png, the checkpoints
+/// checkpoint_*.h5 and *.h5.aside; also their temporary files (dem/io/atomic_file.h).
+/// fields/ itself goes when nothing else is in it.
 class OutputFolder {
 public:
   OutputFolder(std::filesystem::path folder, Earlier earlier);

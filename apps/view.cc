@@ -1,12 +1,16 @@
 /// mergel-view: pictures of runs. Of a pile run: damage.png, displacement.png and load.png;
-/// of bond runs: loads.png and surface.png.
+/// of bond runs: loads.png and surface.png; of element runs: element.png or isotropic.png;
+/// of any: curve.png.
 
 #include "apps/view_bond.h"
 #include "apps/view_bond_loads.h"
 #include "apps/view_bond_surface.h"
 #include "apps/view_chart.h"
 #include "apps/view_displacement.h"
+#include "apps/view_element.h"
+#include "apps/view_points.h"
 #include "apps/view_results.h"
+#include "apps/view_run_plot.h"
 #include "apps/view_scene.h"
 #include "dem/error.h"
 #include "dem/io/table.h"
@@ -49,14 +53,23 @@ Size parse_size(const std::string& text)
   return size;
 }
 
-/// VTK aborts without a message of ours when it finds no display.
-bool has_display()
-{
-  Display* display = XOpenDisplay(nullptr);
-  if (display == nullptr) return false;
-  XCloseDisplay(display);
-  return true;
-}
+/// VTK aborts without a message of ours when it finds no display: look first. The
+/// connection stays open, as Xvfb starts anew when its last client leaves and then refuses
+/// VTK.
+class DisplayConnection {
+public:
+  DisplayConnection() = default;
+  DisplayConnection(const DisplayConnection&) = delete;
+  DisplayConnection& operator=(const DisplayConnection&) = delete;
+  ~DisplayConnection()
+  {
+    if (display_ != nullptr) XCloseDisplay(display_);
+  }
+  bool is_open() const { return display_ != nullptr; }
+
+private:
+  Display* display_ = XOpenDisplay(nullptr);
+};
 
 /// "depth 3.00 D_p, time 4.36 ms, 6208 bonds broken"; depth as in the history at that time.
 std::string caption(const dem::Table& history, double time)
@@ -100,6 +113,9 @@ struct Options {
   std::vector<std::string> folders; ///< of the runs
   std::vector<std::string> labels;  ///< of the folders, in their order; empty: their names
   fs::path output;                  ///< of the pictures; empty: the only folder
+  std::vector<std::string> curves;  ///< "X:Y" of each panel of curve.png; empty: none
+  std::vector<std::string> points;  ///< files that are laid over the curves
+  std::string leg;                  ///< of element runs; empty: all
   int frame = -1;
   bool has_frame = false, has_size = false;
   Size size;
@@ -138,8 +154,9 @@ void draw_pile(const Options& options, const dem::Table& history)
 {
   const fs::path folder = options.folders.front();
   if (!options.labels.empty())
-    throw InputError("--label " + options.labels.front() + ": is for bond runs; " +
-                     folder.string() + " holds a pile run. Leave it out.");
+    throw InputError("--label " + options.labels.front() +
+                     ": is for bond and element runs, and for --curve; " + folder.string() +
+                     " holds a pile run. Leave it out.");
   ResultFrame frame = read_frame(folder, options.frame);
   const fs::path output = picture_folder(options);
   const auto draw_picture = [&](RockPicture picture, const char* name) {
@@ -174,12 +191,14 @@ std::vector<std::string> folder_labels(const std::vector<std::string>& folders)
   return is_unique ? names : folders;
 }
 
-void draw_bonds(const Options& options, const std::vector<dem::Table>& histories)
+/// The names of runs that lie on each other.
+std::vector<RunName> run_names(const Options& options)
 {
   const auto& folders = options.folders;
   require(!options.has_frame,
           "--frame " + std::to_string(options.frame) +
-              ": is for pile runs; a bond run has no frames. Leave it out.");
+              ": is for damage.png and displacement.png of a pile run; curves have no "
+              "frames. Leave it out.");
   require(options.labels.empty() || options.labels.size() == folders.size(),
           "--label: given " + std::to_string(options.labels.size()) + " times for " +
               std::to_string(folders.size()) +
@@ -188,9 +207,17 @@ void draw_bonds(const Options& options, const std::vector<dem::Table>& histories
           "--output: must be given with several folders, to say where their common "
           "pictures go.");
   const auto labels = options.labels.empty() ? folder_labels(folders) : options.labels;
+  std::vector<RunName> names;
+  for (std::size_t k = 0; k < folders.size(); ++k) names.push_back({k, labels[k]});
+  return names;
+}
+
+void draw_bonds(const Options& options, const std::vector<dem::Table>& histories)
+{
+  const std::vector<RunName> names = run_names(options);
   std::vector<BondRun> runs, with_surface;
-  for (std::size_t k = 0; k < folders.size(); ++k)
-    runs.push_back(read_bond_run(folders[k], histories[k], {k, labels[k]}));
+  for (std::size_t k = 0; k < histories.size(); ++k)
+    runs.push_back(read_bond_run(options.folders[k], histories[k], names[k]));
   const fs::path output = picture_folder(options);
 
   Page loads(options.size.width, options.size.height);
@@ -212,24 +239,107 @@ void draw_bonds(const Options& options, const std::vector<dem::Table>& histories
   save(surface, output / "surface.png");
 }
 
+/// Runs on each other in these panels.
+void draw_panels(const Options& options, const std::vector<RunPlot>& plots,
+                 const std::vector<Run>& runs, const char* name)
+{
+  std::vector<Points> points;
+  for (const std::string& file : options.points)
+    points.push_back(read_points(file, distinct_mark(points.size())));
+  check_points(points, plots);
+  const fs::path output = picture_folder(options);
+  Page page(options.size.width, options.size.height);
+  draw_runs(page, plots, runs, points);
+  save(page, output / name);
+}
+
+std::vector<Run> runs_of(const Options& options, const Legs& legs,
+                         const std::vector<dem::Table>& histories)
+{
+  const std::vector<RunName> names = run_names(options);
+  std::vector<Run> runs;
+  for (std::size_t k = 0; k < histories.size(); ++k)
+    runs.push_back({names[k], from_legs(histories[k], legs)});
+  return runs;
+}
+
+void draw_elements(const Options& options, const Legs& legs,
+                   const std::vector<dem::Table>& histories)
+{
+  const std::vector<Run> runs = runs_of(options, legs, histories);
+  if (is_isotropic(runs))
+    draw_panels(options, isotropic_plots(runs, legs), runs, "isotropic.png");
+  else
+    draw_panels(options, element_plots(runs, legs), runs, "element.png");
+}
+
+void draw_curves(const Options& options, const Legs& legs,
+                 const std::vector<dem::Table>& histories)
+{
+  const std::vector<Run> runs = runs_of(options, legs, histories);
+  std::vector<RunPlot> plots;
+  for (const std::string& text : options.curves) {
+    auto [x, y] = curve_of(text);
+    name_legs(x, legs);
+    name_legs(y, legs);
+    try {
+      plots.push_back(plot_of(x, y, runs));
+    } catch (const InputError& error) {
+      throw InputError("--curve \"" + text + "\": " + error.what());
+    }
+  }
+  draw_panels(options, plots, runs, "curve.png");
+}
+
+enum class Job { pile, bond, element };
+
+Job job_of(const dem::Table& history)
+{
+  if (is_bond_history(history)) return Job::bond;
+  return is_element_history(history) ? Job::element : Job::pile;
+}
+
+std::string described(Job job)
+{
+  if (job == Job::pile) return "a pile run";
+  return job == Job::bond ? "a bond run" : "an element run";
+}
+
 void draw(const Options& options)
 {
   std::vector<dem::Table> histories;
   for (const std::string& folder : options.folders) histories.push_back(history_of(folder));
-  const bool is_bond = is_bond_history(histories.front());
-  for (std::size_t k = 1; k < histories.size(); ++k)
-    require(is_bond == is_bond_history(histories[k]),
-            options.folders[is_bond ? k : 0] + " holds a pile run and " +
-                options.folders[is_bond ? 0 : k] +
-                " a bond run: they have no picture in common. Draw them one by one.");
-  if (is_bond) {
-    draw_bonds(options, histories);
+  const auto& folders = options.folders;
+  const Job job = job_of(histories.front());
+  for (std::size_t k = 1; k < histories.size(); ++k) {
+    const Job other = job_of(histories[k]);
+    require(job == other, folders.front() + " holds " + described(job) + " and " +
+                              folders[k] + " " + described(other) +
+                              ": they have no picture in common. Draw them one by one.");
+  }
+  const Legs legs = options.leg.empty() ? Legs{} : legs_of(options.leg);
+  require(legs.is_all() || job == Job::element,
+          "--leg " + options.leg + ": is for element runs; " + folders.front() + " holds " +
+              described(job) + ". Leave it out.");
+  if (!options.curves.empty()) {
+    draw_curves(options, legs, histories);
     return;
   }
-  require(histories.size() == 1, std::to_string(histories.size()) +
-                                     " folders of pile runs: only bond runs are drawn "
-                                     "together. Draw them one by one.");
-  draw_pile(options, histories.front());
+  require(options.points.empty() || job == Job::element,
+          "--points " + (options.points.empty() ? "" : options.points.front()) +
+              ": is for element runs and for --curve; " + folders.front() + " holds " +
+              described(job) + ". Leave it out.");
+  if (job == Job::element) {
+    draw_elements(options, legs, histories);
+  } else if (job == Job::bond) {
+    draw_bonds(options, histories);
+  } else {
+    require(histories.size() == 1,
+            std::to_string(histories.size()) +
+                " folders of pile runs: only bond and element runs, and the curves of "
+                "--curve, are drawn together. Draw them one by one.");
+    draw_pile(options, histories.front());
+  }
 }
 
 } // namespace
@@ -240,18 +350,37 @@ int main(int argc, char** argv)
   std::string size_text = "1600x1200";
   CLI::App app(
       "Draw runs. A pile run: damage.png, displacement.png and load.png. Bond runs, "
-      "one or several on each other: loads.png and surface.png.",
+      "one or several on each other: loads.png and surface.png. Element runs, one or "
+      "several: element.png (q and volumetric strain over axial strain, q and void ratio "
+      "over p) or, where |q| stays below 1 % of p, isotropic.png (p over volumetric "
+      "strain, "
+      "void ratio over log p). Any runs, with --curve: curve.png.",
       "mergel-view");
   app.add_option("DIR", options.folders,
-                 "Results folder written by 'mergel pile' or 'mergel bond'; several only "
-                 "of 'mergel bond'")
+                 "Results folder written by 'mergel pile', 'mergel bond' or 'mergel "
+                 "element'; several of one job lie on each other (pile: with --curve)")
       ->required();
   app.add_option("--output", options.output,
                  "Folder for the pictures (default: DIR; required with several)");
   app.add_option(
          "--label", options.labels,
-         "Name of a bond run in the key, once for each DIR in their order (default: "
-         "the names of the folders)")
+         "Name of a run in the key, once for each DIR in their order (default: the names "
+         "of the folders)")
+      ->allow_extra_args(false);
+  app.add_option(
+         "--curve", options.curves,
+         "Draw curve.png instead: any column of history.csv over any other, \"X:Y\", such "
+         "as \"axial strain:q\" or \"log p [kPa]:void ratio\"; A/B is the ratio of two "
+         "columns (q/p), [unit] any that fits; repeat for more panels")
+      ->allow_extra_args(false);
+  app.add_option("--leg", options.leg,
+                 "Of element runs draw only from this leg on (2), or these legs (2-3); "
+                 "axial and volumetric strain then count from its start");
+  app.add_option(
+         "--points", options.points,
+         "Points to lay over curves: a CSV file of two columns named as the axes of a "
+         "panel, such as \"p [MPa],q [MPa]\", and above them, if wanted, \"# name in the "
+         "key\"; repeatable")
       ->allow_extra_args(false);
   const auto* frame = app.add_option(
       "--frame", options.frame,
@@ -272,7 +401,8 @@ int main(int argc, char** argv)
     options.has_frame = frame->count() > 0;
     options.has_size = size->count() > 0;
     options.size = parse_size(size_text);
-    if (!has_display()) {
+    const DisplayConnection display;
+    if (!display.is_open()) {
       std::cerr
           << "mergel-view: no display to draw with. Run 'xvfb-run -a mergel-view ...'.\n";
       return 2;

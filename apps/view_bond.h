@@ -1,12 +1,12 @@
 /// What `mergel bond` left in its folder, ready to be drawn.
 #pragma once
 
+#include "apps/view_run_name.h"
 #include "dem/io/table.h"
 
 #include <array>
 #include <cstddef>
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace mergel::apps {
@@ -26,12 +26,6 @@ struct BondStrengths {
     return load == shear ? shear_force : moment;
   }
   bool operator==(const BondStrengths&) const = default;
-};
-
-/// How a run is told from the others of a picture.
-struct RunName {
-  std::size_t number = 0; ///< of its stroke
-  std::string label;      ///< in the key
 };
 
 /// One run; every column has one value per step.

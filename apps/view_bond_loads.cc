@@ -1,6 +1,6 @@
 #include "apps/view_bond_loads.h"
 
-#include "apps/view_curve.h"
+#include "apps/view_plot.h"
 
 #include <algorithm>
 #include <array>
@@ -13,17 +13,6 @@ namespace {
 
 constexpr std::array<Load, 3> all_loads{normal, shear, bending};
 constexpr double thin = 2.0;
-
-/// One curve of a panel.
-struct Curve {
-  std::vector<double> x, y; ///< in the units of the axes
-  Stroke stroke;
-};
-
-struct Plot {
-  std::string x_title, y_title;
-  std::vector<Curve> curves;
-};
 
 Stroke stroke_of(const BondRun& run)
 {
@@ -94,7 +83,9 @@ Plot load_plot(Load l, const std::vector<BondRun>& runs, const Units& u)
                                                   "shear displacement (", "rotation ("};
   static const std::array<const char*, 3> loads{"normal force N, tension + (",
                                                 "shear force V (", "bending moment M ("};
-  Plot plot{motions[l] + u.of_motion(l).name + ")", loads[l] + u.of_load(l).name + ")", {}};
+  Plot plot;
+  plot.x.title = motions[l] + u.of_motion(l).name + ")";
+  plot.y.title = loads[l] + u.of_load(l).name + ")";
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const auto x = in_units(runs[k].motion[l], u.of_motion(l));
     plot.curves.push_back(
@@ -117,34 +108,13 @@ Plot damage_plot(const std::vector<BondRun>& runs)
                        [&](const BondRun& run) { return run.moves(l); });
   };
   const std::string rotation = moves(bending) ? ", rotation \u00d7 bond radius (" : " (";
-  Plot plot{"path length" + rotation + unit.name + ")", "damage D", {}};
+  Plot plot;
+  plot.x.title = "path length" + rotation + unit.name + ")";
+  plot.y.title = "damage D";
   for (std::size_t k = 0; k < runs.size(); ++k)
     plot.curves.push_back(
         {in_units(path_length(runs[k]), unit), runs[k].D, stroke_of(runs[k])});
   return plot;
-}
-
-void draw(Page& page, const Box& box, const Plot& plot)
-{
-  Range x, y;
-  for (const Curve& curve : plot.curves) {
-    x = range(x, range(curve.x));
-    y = range(y, range(curve.y));
-  }
-  Panel panel;
-  panel.box = box;
-  panel.x = round_axis(x, plot.x_title);
-  panel.y = round_axis(y, plot.y_title);
-  panel.has_grid = true;
-  draw_axes(page, panel);
-
-  const Stroke zero{{0.55, 0.55, 0.55}, 2.0, {}};
-  if (y.low < 0.0 && y.high > 0.0)
-    page.line({panel.at(panel.x.from, 0.0), panel.at(panel.x.to, 0.0)}, zero);
-  if (x.low < 0.0 && x.high > 0.0)
-    page.line({panel.at(0.0, panel.y.from), panel.at(0.0, panel.y.to)}, zero);
-  for (const Curve& curve : plot.curves)
-    draw_curve(page, panel, curve.x, curve.y, curve.stroke);
 }
 
 std::vector<KeyEntry> key(const std::vector<BondRun>& runs)
@@ -176,7 +146,7 @@ void draw_bond_loads(Page& page, const std::vector<BondRun>& runs)
 
   const auto entries = key(runs);
   const Grid places = grid(page, plots.size(), entries);
-  for (std::size_t k = 0; k < plots.size(); ++k) draw(page, places.boxes[k], plots[k]);
+  for (std::size_t k = 0; k < plots.size(); ++k) draw_plot(page, places.boxes[k], plots[k]);
   draw_key(page, places.key, entries);
 }
 

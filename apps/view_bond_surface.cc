@@ -236,8 +236,8 @@ public:
     for (std::size_t k = 0; k < runs_.size(); ++k)
       for (const Moment& moment : moments_[k])
         if ((moment.D > 0.0 || moment.is_yield) && is_shown(moment))
-          draw_marker(page, at(panel, moment.load(plane_.x), moment.load(plane_.y)),
-                      stroke_of(runs_[k]).colour);
+          draw_mark(page, at(panel, moment.load(plane_.x), moment.load(plane_.y)),
+                    Mark::ring, stroke_of(runs_[k]).colour);
   }
 
 private:
@@ -381,7 +381,7 @@ std::vector<KeyEntry> key(const std::vector<BondRun>& runs)
   entries.push_back({"yield surface of the intact bond", intact_surface});
   entries.push_back({"yield surface at the damage D on it", shrunken_surface});
   const Colour colour = runs.size() == 1 ? stroke_of(runs.front()).colour : ink;
-  entries.push_back({"path at first yield and at that D", {colour, 0.0, {}}, true});
+  entries.push_back({"path at first yield and at that D", {colour, 0.0, {}}, Mark::ring});
   if (any_bears(runs, normal) && any_bears(runs, shear) && any_bears(runs, bending))
     entries.push_back({"cut at the third load of each point", {ink, 0.0, {}}});
   return entries;

@@ -14,7 +14,7 @@ constexpr double key_line = 80.0;   // length of the line of an entry
 constexpr double key_letter = 14.0; // mean width of a letter at key_text
 constexpr double key_gap = 30.0;    // between columns
 constexpr double key_text = 0.9;    // size of its words
-constexpr double marker_across = 15.0;
+constexpr double mark_across = 15.0;
 
 /// Width of a column of the key, and how many columns and rows there are.
 struct KeyPlan {
@@ -32,6 +32,35 @@ KeyPlan plan(const Page& page, const std::vector<KeyEntry>& entries, double widt
   const auto fit = static_cast<std::size_t>(std::max(1.0, std::floor(width / column)));
   const std::size_t n_columns = std::min(fit, n);
   return {column, n_columns, (n + n_columns - 1) / n_columns};
+}
+
+constexpr std::size_t n_outlines = 5, n_marks = 2 * n_outlines;
+
+/// One of the five outlines, filled, of about the area of a disc of this diameter.
+void draw_shape(Page& page, const Pixel& at, Mark outline, const Colour& colour,
+                double units_across)
+{
+  const double r = 0.5 * units_across * page.unit();
+  const double s = 0.9 * r, d = 1.25 * r, foot = 0.75 * r, head = 1.45 * r, wide = 1.25 * r;
+  switch (outline) {
+  case Mark::square:
+    page.fill(Box{at.x - s, at.y - s, at.x + s, at.y + s}, colour);
+    break;
+  case Mark::triangle:
+    page.fill({{at.x - wide, at.y - foot}, {at.x + wide, at.y - foot}, {at.x, at.y + head}},
+              colour);
+    break;
+  case Mark::diamond:
+    page.fill({{at.x - d, at.y}, {at.x, at.y - d}, {at.x + d, at.y}, {at.x, at.y + d}},
+              colour);
+    break;
+  case Mark::nabla:
+    page.fill({{at.x - wide, at.y + foot}, {at.x, at.y - head}, {at.x + wide, at.y + foot}},
+              colour);
+    break;
+  default:
+    page.dot(at, colour, units_across);
+  }
 }
 
 } // namespace
@@ -81,24 +110,28 @@ void draw_curve(Page& page, const Panel& panel, const std::vector<double>& x,
                 const std::vector<double>& y, const Stroke& stroke)
 {
   std::vector<Pixel> points;
+  const auto draw = [&] {
+    if (points.size() > 1) page.line(points, stroke);
+    points.clear();
+  };
   for (std::size_t row = 0; row < x.size(); ++row)
-    if (std::isfinite(x[row]) && std::isfinite(y[row])) {
+    if (std::isfinite(x[row]) && std::isfinite(y[row]))
       points.push_back(panel.at(x[row], y[row]));
-    } else {
-      page.line(points, stroke);
-      points.clear();
-    }
-  page.line(points, stroke);
+    else
+      draw();
+  draw();
 }
 
 Stroke distinct_stroke(std::size_t k)
 {
-  static const std::array<Colour, 6> colours{{{0.05, 0.28, 0.55},
+  static const std::array<Colour, 8> colours{{{0.05, 0.28, 0.55},
                                               {0.86, 0.37, 0.05},
                                               {0.00, 0.60, 0.45},
                                               {0.50, 0.14, 0.50},
                                               {0.88, 0.62, 0.05},
-                                              {0.25, 0.25, 0.25}}};
+                                              {0.25, 0.25, 0.25},
+                                              {0.34, 0.71, 0.91},
+                                              {0.80, 0.47, 0.65}}};
   static const std::array<std::vector<double>, 5> dashes{
       {{}, {24.0, 12.0}, {9.0, 9.0}, {26.0, 8.0, 7.0, 8.0}, {44.0, 14.0}}};
   return {colours[k % colours.size()], k == 0 ? 6.0 : 4.5, dashes[k % dashes.size()]};
@@ -120,17 +153,27 @@ void draw_key(Page& page, const Box& box, const std::vector<KeyEntry>& entries)
     const Pixel at{box.left + column * p.column, box.top - (row + 0.5) * key_row * u};
     if (entries[k].stroke.width > 0.0)
       page.line({at, {at.x + key_line * u, at.y}}, entries[k].stroke);
-    if (entries[k].has_dot)
-      draw_marker(page, {at.x + 0.5 * key_line * u, at.y}, entries[k].stroke.colour);
+    if (entries[k].mark != Mark::none)
+      draw_mark(page, {at.x + 0.5 * key_line * u, at.y}, entries[k].mark,
+                entries[k].stroke.colour);
     page.text({at.x + (key_line + 20.0) * u, at.y}, entries[k].words,
               {key_text, Across::left});
   }
 }
 
-void draw_marker(Page& page, const Pixel& at, const Colour& colour)
+Mark distinct_mark(std::size_t k)
 {
-  page.dot(at, colour, marker_across);
-  page.dot(at, {1.0, 1.0, 1.0}, 0.55 * marker_across);
+  return static_cast<Mark>(static_cast<std::size_t>(Mark::ring) + k % n_marks);
+}
+
+void draw_mark(Page& page, const Pixel& at, Mark mark, const Colour& colour)
+{
+  if (mark == Mark::none) return;
+  const auto k = static_cast<std::size_t>(mark) - static_cast<std::size_t>(Mark::ring);
+  const auto shape =
+      static_cast<Mark>(k % n_outlines + static_cast<std::size_t>(Mark::ring));
+  draw_shape(page, at, shape, colour, mark_across);
+  if (k < n_outlines) draw_shape(page, at, shape, {1.0, 1.0, 1.0}, 0.55 * mark_across);
 }
 
 Grid grid(const Page& page, std::size_t n_panels, const std::vector<KeyEntry>& entries)

@@ -33,14 +33,35 @@ Unit convenient_unit(double largest, const std::string& base);
 void draw_curve(Page& page, const Panel& panel, const std::vector<double>& x,
                 const std::vector<double>& y, const Stroke& stroke);
 
-/// Stroke number k of a picture with many curves. Colours differ in lightness and each has
-/// its dashes, so that grey print and curves that lie on each other can still be read.
+/// Stroke number k of a picture with many curves; eight colours, and 40 strokes differ.
+/// Colours differ in lightness and each has its dashes, so that grey print and curves that
+/// lie on each other can still be read.
 Stroke distinct_stroke(std::size_t k);
+
+/// The mark of a point: its outline around white, or filled.
+enum class Mark {
+  none,
+  ring,
+  square,
+  triangle,
+  diamond,
+  nabla,
+  disc,
+  full_square,
+  full_triangle,
+  full_diamond,
+  full_nabla
+};
+
+/// Mark number k of a picture with several series of points; ten differ.
+Mark distinct_mark(std::size_t k);
+
+void draw_mark(Page& page, const Pixel& at, Mark mark, const Colour& colour);
 
 struct KeyEntry {
   std::string words;
   Stroke stroke;
-  bool has_dot = false; ///< a marker on the line
+  Mark mark = Mark::none; ///< on the line
 };
 
 /// Height of a key in a box of this width.
@@ -48,9 +69,6 @@ double key_height(const Page& page, const std::vector<KeyEntry>& entries, double
 
 /// The key, from the upper left corner of the box, in as many columns as fit.
 void draw_key(Page& page, const Box& box, const std::vector<KeyEntry>& entries);
-
-/// The marker of has_dot: a ring around white.
-void draw_marker(Page& page, const Pixel& at, const Colour& colour);
 
 /// Boxes of panels for the whole page, two in a row, with room for their titles; the key
 /// goes above them, or into the last place of the grid if that is free and large enough.

@@ -165,11 +165,17 @@ void Page::dot(const Pixel& centre, const Colour& colour, double units_across)
 
 void Page::fill(const Box& box, const Colour& colour)
 {
+  fill({{box.left, box.bottom},
+        {box.right, box.bottom},
+        {box.right, box.top},
+        {box.left, box.top}},
+       colour);
+}
+
+void Page::fill(const std::vector<Pixel>& corners, const Colour& colour)
+{
   Shapes shapes;
-  shapes.add({{box.left, box.bottom},
-              {box.right, box.bottom},
-              {box.right, box.top},
-              {box.left, box.top}});
+  shapes.add(corners);
   shapes.show(overlay_, colour);
 }
 
@@ -218,10 +224,15 @@ void Page::save(const std::filesystem::path& png)
   });
 }
 
+double Axis::at(double start, double length, double value) const
+{
+  if (is_logarithmic) return start + length * std::log(value / from) / std::log(to / from);
+  return start + length * (value - from) / (to - from);
+}
+
 Pixel Panel::at(double x_value, double y_value) const
 {
-  return {box.left + box.width() * (x_value - x.from) / (x.to - x.from),
-          box.bottom + box.height() * (y_value - y.from) / (y.to - y.from)};
+  return {x.at(box.left, box.width(), x_value), y.at(box.bottom, box.height(), y_value)};
 }
 
 std::vector<double> round_ticks(double from, double to, int n)
@@ -241,6 +252,26 @@ std::vector<double> round_ticks(double from, double to, int n)
   return ticks;
 }
 
+std::vector<double> decade_ticks(double from, double to)
+{
+  std::vector<double> ticks;
+  constexpr double slack = 1e-9;
+  for (double k = std::floor(std::log10(from)); k <= std::ceil(std::log10(to)); ++k)
+    for (double digit = 1.0; digit < 9.5; ++digit) {
+      const double tick = digit * std::pow(10.0, k);
+      if (tick >= from * (1.0 - slack) && tick <= to * (1.0 + slack)) ticks.push_back(tick);
+    }
+  return ticks;
+}
+
+bool has_number(double tick, const Axis& axis)
+{
+  const bool is_wide = axis.to > 100.0 * axis.from * (1.0 + 1e-9);
+  const double digit =
+      std::round(tick / std::pow(10.0, std::floor(std::log10(tick) + 1e-9)));
+  return digit == 1.0 || (!is_wide && (digit == 2.0 || digit == 5.0));
+}
+
 std::string tick_text(double value)
 {
   char text[32];
@@ -253,37 +284,49 @@ void draw_axes(Page& page, const Panel& panel)
 {
   const double u = page.unit();
   const Box& box = panel.box;
-  const Colour grid{0.87, 0.87, 0.87};
+  const auto grid = [](double value, const Axis& axis) {
+    const bool is_minor = axis.is_logarithmic && !has_number(value, axis);
+    return is_minor ? Colour{0.93, 0.93, 0.93} : Colour{0.87, 0.87, 0.87};
+  };
   const auto n_ticks = [&](double length, double spacing) {
     return static_cast<int>(length / (spacing * u));
   };
   const double outward = panel.is_x_on_top ? 1.0 : -1.0;
   const double x_side = panel.is_x_on_top ? box.top : box.bottom;
 
-  const auto x_ticks = round_ticks(panel.x.from, panel.x.to, n_ticks(box.width(), 85.0));
-  const auto y_ticks = round_ticks(panel.y.from, panel.y.to, n_ticks(box.height(), 80.0));
+  const auto ticks = [](const Axis& axis, int n) {
+    return axis.is_logarithmic ? decade_ticks(axis.from, axis.to)
+                               : round_ticks(axis.from, axis.to, n);
+  };
+  const auto number = [](double value, const Axis& axis) {
+    return !axis.is_logarithmic || has_number(value, axis) ? tick_text(value)
+                                                           : std::string();
+  };
+  const auto x_ticks = ticks(panel.x, n_ticks(box.width(), 85.0));
+  const auto y_ticks = ticks(panel.y, n_ticks(box.height(), 80.0));
   if (panel.has_grid) {
     for (const double value : x_ticks) {
       const double x = panel.at(value, panel.y.from).x;
-      page.line({{x, box.bottom}, {x, box.top}}, grid, frame_units);
+      page.line({{x, box.bottom}, {x, box.top}}, grid(value, panel.x), frame_units);
     }
     for (const double value : y_ticks) {
       const double y = panel.at(panel.x.from, value).y;
-      page.line({{box.left, y}, {box.right, y}}, grid, frame_units);
+      page.line({{box.left, y}, {box.right, y}}, grid(value, panel.y), frame_units);
     }
   }
 
   for (const double value : x_ticks) {
     const double x = panel.at(value, panel.y.from).x;
     page.line({{x, x_side}, {x, x_side + outward * tick_units * u}}, ink, frame_units);
-    page.text({x, x_side + outward * number_units * u}, tick_text(value),
+    page.text({x, x_side + outward * number_units * u}, number(value, panel.x),
               {0.9, Across::middle, panel.is_x_on_top ? Up::foot : Up::head});
   }
   for (const double value : y_ticks) {
     const double y = panel.at(panel.x.from, value).y;
     page.line({{box.left - tick_units * u, y}, {box.left, y}}, ink, frame_units);
     if (panel.has_y_numbers)
-      page.text({box.left - number_units * u, y}, tick_text(value), {0.9, Across::right});
+      page.text({box.left - number_units * u, y}, number(value, panel.y),
+                {0.9, Across::right});
   }
 
   page.line({{box.left, box.bottom},

@@ -65,6 +65,7 @@ public:
   void line(const std::vector<Pixel>& points, const Colour& colour, double units_wide);
   void dot(const Pixel& centre, const Colour& colour, double units_across);
   void fill(const Box& box, const Colour& colour);
+  void fill(const std::vector<Pixel>& corners, const Colour& colour); ///< convex
   void text(const Pixel& at, const std::string& words, const TextStyle& style = {});
 
   /// Draw everything and write a .png (under a temporary name, then renamed).
@@ -77,11 +78,16 @@ private:
   vtkNew<vtkRenderer> paper_, overlay_;
 };
 
-/// One axis of a panel; `from` may be above `to` (a depth that grows downwards).
+/// One axis of a panel; `from` may be above `to` (a depth that grows downwards). A
+/// logarithmic one has 0 < from < to.
 struct Axis {
   double from = 0.0; ///< at the left or lower end
   double to = 1.0;   ///< at the right or upper end
   std::string title; ///< with its unit; empty: the axis shows ticks only
+  bool is_logarithmic = false;
+
+  /// Where a value lies on a line of this start and length.
+  double at(double start, double length, double value) const;
 };
 
 struct Panel {
@@ -95,6 +101,13 @@ struct Panel {
 
 /// Round numbers (1, 2, 5 times a power of ten apart) in [from, to], about `n` of them.
 std::vector<double> round_ticks(double from, double to, int n);
+
+/// Every 1 to 9 times a power of ten in [from, to], 0 < from < to.
+std::vector<double> decade_ticks(double from, double to);
+
+/// Whether a tick of a logarithmic axis gets a number: 1, 2 and 5 times a power of ten;
+/// over more than two decades the powers of ten alone.
+bool has_number(double tick, const Axis& axis);
 
 /// "12", "0.5", with a true minus sign.
 std::string tick_text(double value);

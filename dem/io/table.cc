@@ -99,6 +99,10 @@ Table read_table(const std::filesystem::path& file, LastLine last)
     const std::string where = file.string() + ":" + std::to_string(number) + ": ";
     const bool is_complete = !in.eof(); // getline met the end of the line, not of the file
     if (trimmed(line).empty()) continue;
+    if (trimmed(line).front() == '#') {
+      table.remarks.emplace_back(trimmed(trimmed(line).substr(1)));
+      continue;
+    }
 
     const auto cells = split(line);
     if (table.columns.empty()) {

@@ -22,7 +22,8 @@ struct Table {
   std::filesystem::path file;
   std::vector<TableColumn> columns; ///< in the order of the file
   std::size_t n_rows = 0;
-  std::vector<std::size_t> lines; ///< of the file, one per row
+  std::vector<std::size_t> lines;   ///< of the file, one per row
+  std::vector<std::string> remarks; ///< the lines that begin with #, without it
   bool is_last_line_cut =
       false; ///< the run was writing, or was killed: that line is left out
 
@@ -40,7 +41,8 @@ enum class LastLine {
   may_be_cut ///< no: a run may be writing it, and "1.2" be the beginning of "1.25"
 };
 
-/// Read a table. Any column may be missing and more may follow: ask by name.
+/// Read a table. Any column may be missing and more may follow: ask by name. Lines that
+/// begin with # are remarks.
 /// @throws InputError naming file and line: unreadable, no record, a line with too few or
 ///   too many values, a value that is no number, two columns of one name
 Table read_table(const std::filesystem::path& file, LastLine last = LastLine::may_be_cut);

@@ -77,9 +77,10 @@ std::string refusal(const fs::path& folder, Earlier earlier,
 }
 
 const std::vector<std::string> own = {
-    ".history.partial.csv",  "damage.png",   "displacement.png",
-    "fields/bonds_0000.vtp", "history.csv",  "load.png",
-    "particles.pvd",         "resolved.prm", "sample.h5",
+    ".history.partial.csv", "curve.png",     "damage.png",
+    "displacement.png",     "element.png",   "fields/bonds_0000.vtp",
+    "history.csv",          "isotropic.png", "load.png",
+    "particles.pvd",        "resolved.prm",  "sample.h5",
     "summary.json"};
 
 } // namespace

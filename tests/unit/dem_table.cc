@@ -48,6 +48,15 @@ std::string message_of(const std::string& contents)
 
 } // namespace
 
+TEST_CASE("lines that begin with # are remarks, and count as lines", "[unit][dem]")
+{
+  const File file("# critical states\np [Pa]\n 1\n  #  2 \n3\n");
+  const Table table = read_table(file.path);
+  CHECK(table.remarks == std::vector<std::string>{"critical states", "2"});
+  CHECK(table.column("p", "Pa") == std::vector<double>{1.0, 3.0});
+  CHECK(table.lines == std::vector<std::size_t>{3, 5});
+}
+
 TEST_CASE("columns are found by name and unit, in any order", "[unit][dem]")
 {
   const File file("time [s],depth/D_p [-],q_c [Pa],note\n"

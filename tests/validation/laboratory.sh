@@ -4,7 +4,7 @@
 # usage: tests/validation/laboratory.sh MERGEL FOLDER [STUDY...]
 #   FOLDER  takes specimens, runs and a table STUDY.csv of each study; what is there is not run again
 #   STUDY   bands fig14 fig15 fig8 fig9b fig10 fig11 fig7; default all of them in this order
-# Environment: JOBS, runs at a time, default 2; QUICK=1 leaves the seeds 2 and 3 and the conjugate flow out.
+# Environment: JOBS, runs at a time, default 2; SEEDS, default "1 2 3"; FLOWS, default "published conjugate".
 set -euo pipefail
 [ $# -ge 2 ] || { sed -n '2,7s/^# \{0,1\}//p' "$0" >&2; exit 1; }
 cases=$(cd "$(dirname "$0")/../../apps/cases" && pwd)
@@ -13,8 +13,8 @@ mkdir -p "$2"
 cd "$2"
 shift 2
 [ $# -gt 0 ] || set -- bands fig14 fig15 fig8 fig9b fig10 fig11 fig7
-seeds=(1 2 3) flows=(published conjugate)
-[ "${QUICK:-0}" = 0 ] || seeds=(1) flows=(published)
+read -ra seeds <<<"${SEEDS:-1 2 3}"
+read -ra flows <<<"${FLOWS:-published conjugate}"
 
 # Runs go on a list, a line each, and are done JOBS at a time; specimens first, for runs share them.
 list=$(mktemp)

@@ -1,0 +1,37 @@
+/// Runs on each other in panels of any two quantities, points above them, one key for all.
+#pragma once
+
+#include "apps/view_page.h"
+#include "apps/view_points.h"
+#include "apps/view_quantity.h"
+#include "apps/view_run_name.h"
+#include "dem/io/table.h"
+
+#include <vector>
+
+namespace mergel::apps {
+
+struct Run {
+  RunName name;
+  dem::Table history;
+};
+
+/// What one panel shows.
+struct RunPlot {
+  Quantity x, y;
+  Reach x_reach = Reach::from_zero, y_reach = Reach::from_zero;
+};
+
+/// Settle both quantities (view_quantity.h); axes hold 0 unless the values keep far from
+/// it.
+/// @throws InputError when a run lacks a column
+RunPlot plot_of(Quantity x, Quantity y, const std::vector<Run>& runs);
+
+/// @throws InputError naming a file whose columns are the axes of no panel
+void check_points(const std::vector<Points>& points, const std::vector<RunPlot>& plots);
+
+/// All panels of the page.
+void draw_runs(Page& page, const std::vector<RunPlot>& plots, const std::vector<Run>& runs,
+               const std::vector<Points>& points);
+
+} // namespace mergel::apps

@@ -1,0 +1,74 @@
+#include "apps/view_points.h"
+
+#include "dem/error.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
+
+using namespace mergel;
+using namespace mergel::apps;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// The points of a file with these contents.
+Points points(const std::string& contents)
+{
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("mergel-points-" + std::to_string(::getpid()) + ".csv");
+  std::ofstream(file) << contents;
+  struct Removed {
+    std::filesystem::path file;
+    ~Removed() { std::filesystem::remove(file); }
+  } removed{file};
+  return read_points(file, Mark::square);
+}
+
+Quantity axis(const std::string& name, const std::string& unit, const std::string& base)
+{
+  Quantity q = quantity_of(name);
+  q.unit = unit;
+  q.base = base;
+  return q;
+}
+const Quantity p = axis("p", "MPa", "Pa"), q = axis("q", "MPa", "Pa"),
+               e = axis("void ratio", "-", "-");
+
+} // namespace
+
+TEST_CASE("Points come to the units of the axes, whichever column is first", "[unit][view]")
+{
+  const auto shown = on_axes(points("# yield\nq [kPa],p\n500,2\n1500,3\n"), p, q);
+  REQUIRE(shown);
+  CHECK(shown->x == std::vector<double>{2.0, 3.0}); // without a unit: that of the axis
+  CHECK(shown->y[0] == Approx(0.5).epsilon(1e-15)); // one product rounds
+  CHECK(shown->y[1] == Approx(1.5).epsilon(1e-15));
+  CHECK(shown->mark == Mark::square);
+}
+
+TEST_CASE("Points are named by their remark, else by their file", "[unit][view]")
+{
+  CHECK(points("# yield, by eye\np,q\n1,2\n").label == "yield, by eye");
+  CHECK_THAT(points("p,q\n1,2").label, Catch::Matchers::StartsWith("mergel-points-"));
+}
+
+TEST_CASE("Points are laid on the panel of their names alone", "[unit][view]")
+{
+  const Points yield = points("p [MPa],q [MPa]\n1,2\n");
+  CHECK_FALSE(on_axes(yield, p, e));
+  CHECK_FALSE(on_axes(yield, e, q));
+}
+
+TEST_CASE("Points without names, with more columns or of another unit are refused",
+          "[unit][view]")
+{
+  CHECK_THROWS_WITH(points("1,2\n3,4\n"), Contains("with their names above"));
+  CHECK_THROWS_WITH(points("p,q,e\n3,4,5\n"), Contains("must have two columns"));
+  CHECK_THROWS_WITH(on_axes(points("p [mm],q\n1,2\n"), p, q), Contains("'p': [mm]"));
+}
