@@ -142,9 +142,10 @@ namespace {
 /// Keys that a restart may change; of the legs those to come.
 std::vector<std::string> free_keys()
 {
-  std::vector<std::string> keys{"Analysis/secant from",    "Analysis/secant to",
-                                "Analysis/yield offset",   "Analysis/critical states",
-                                "Output/checkpoint every", "Specimen/file"};
+  std::vector<std::string> keys{
+      "Loading/strain limit",  "Analysis/secant from",     "Analysis/secant to",
+      "Analysis/yield offset", "Analysis/critical states", "Output/checkpoint every",
+      "Specimen/file"};
   for (std::size_t k = 0; k < most_legs; ++k) keys.push_back("Loading/" + key_of_leg(k));
   return keys;
 }
@@ -160,6 +161,7 @@ void check_legs(const CaseFile& file, const ElementCase& c, const Restart& resta
   ElementCase earlier;
   declare(earlier_file, earlier);
   earlier_file.read_text(restart.checkpoint.label.case_text, restart.file.string());
+  earlier.critical_text.clear(); // those runs may be gone; the legs are asked for
   complete(earlier_file, earlier);
   const std::size_t n = take_outcomes(restart.checkpoint.state, earlier).size();
   if (c.legs.size() < n ||
@@ -290,9 +292,7 @@ int run_element(const JobOptions& options)
   };
   try {
     follow_all(test, c, is_under_way, after_step);
-  } catch (const CollectiveFailure&) {
-    throw; // stopped, or no room for a checkpoint: the test can go on
-  } catch (const NumericalError&) { // perhaps on one rank alone
+  } catch (const Unstable&) { // on all ranks
     close();
     keeper.rethrow_with_remedy();
   } catch (...) {

@@ -20,6 +20,9 @@ const std::vector<std::string> columns{
     "volumetric strain [-]",
     "axial strain of the leg [-]",
     "volumetric strain of the leg [-]",
+    "driven strain of the leg [-]",
+    "strain x [-]",
+    "strain y [-]",
     "axial stress [Pa]",
     "lateral stress x [Pa]",
     "lateral stress y [Pa]",
@@ -117,6 +120,9 @@ void ElementHistory::add(const ElementRecord& r)
                 r.whole.volumetric_strain(),
                 r.of_leg.axial_strain(),
                 r.of_leg.volumetric_strain(),
+                r.driven_strain,
+                r.whole.strain.x(),
+                r.whole.strain.y(),
                 -a.stress(2, 2),
                 -a.stress(0, 0),
                 -a.stress(1, 1),
@@ -178,7 +184,7 @@ public:
     double farthest = -1.0;
     for (const ElementRecord& r : records) {
       if (r.leg < first || r.leg > last || r.is_approach) continue;
-      if (direction_ * r.driven_strain < farthest) continue;
+      if (direction_ * r.driven_strain <= farthest) continue;
       farthest = direction_ * r.driven_strain;
       states_.push_back(r.of_leg);
     }
@@ -215,8 +221,7 @@ void read_off(std::vector<Finding>& found, const ElementCase& c, const dem::Curv
 {
   const auto E = dem::secant(curve, c.secant_from, c.secant_to);
   if (E) found.push_back({names.modulus, "Pa", *E});
-  if (!(curve.stress.back() > curve.stress.front()) && !(dem::peak(curve).stress > 0.0))
-    return; // stress is taken off: there is no strength in that
+  if (!(dem::peak(curve).stress > 0.0)) return; // stress is taken off: no strength in that
   if (E) {
     if (const auto y = dem::offset_yield(curve, *E, c.yield_offset, c.secant_from)) {
       found.push_back({names.yield, "Pa", y->stress});
@@ -264,20 +269,22 @@ void read_poisson(std::vector<Finding>& found, const ElementCase& c, const Backb
     found.push_back({"Poisson's ratio", "-", *nu});
 }
 
-/// In extension q, and with it the ratio, is negative.
+/// In extension q, and with it the ratio, is negative. Where p is next to nothing, so is its
+/// meaning as a divisor.
 void read_stress_ratio(std::vector<Finding>& found, const Backbone& leg)
 {
-  double eta_peak = 0.0;
+  double eta_peak = 0.0, p_most = 0.0;
+  for (const dem::SoilState& s : leg.states()) p_most = std::max(p_most, s.p());
   for (const dem::SoilState& s : leg.states())
-    if (s.p() > 0.0 && std::abs(s.q() / s.p()) > std::abs(eta_peak))
+    if (s.p() > 0.01 * p_most && std::abs(s.q() / s.p()) > std::abs(eta_peak))
       eta_peak = s.q() / s.p();
   found.push_back({"largest q/p", "-", eta_peak});
   const dem::SoilState& end = leg.states().back();
-  if (!(end.p() > 0.0)) return;
-  const double eta = end.q() / end.p();
-  found.push_back({"q/p at the end", "-", eta});
-  found.push_back(
-      {"friction angle at the end", "degree", dem::friction_angle(eta) * 180.0 / dem::pi});
+  if (!(end.p() > 0.01 * p_most)) return;
+  found.push_back({"q/p at the end", "-", end.q() / end.p()});
+  if (end.stress.maxCoeff() + end.stress.minCoeff() > 0.0)
+    found.push_back({"friction angle at the end", "degree",
+                     dem::friction_angle(end.stress) * 180.0 / dem::pi});
 }
 
 void read_resumed(std::vector<Finding>& found, const std::vector<ElementRecord>& records,

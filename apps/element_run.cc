@@ -125,6 +125,7 @@ void ElementRun::approach(double rate)
   if (c.remaining > 0.0 || ++s.n_held < steps_held) return;
   c = dem::set_out(case_.legs[s.leg], c, soil(stress()), s.rock.cell.size);
   s.n_in_leg = 0;
+  s.farthest = s.tension = 0.0;
 }
 
 double ElementRun::driven_rate(const dem::SoilState& now) const
@@ -229,16 +230,17 @@ ElementRecord ElementRun::record()
   if (s.n_stress > 0) {
     const dem::SoilState mean = soil(mean_stress());
     s.tension = std::max(s.tension, -s.course.driven(mean));
-    s.farthest = std::max(s.farthest, s.course.progress(r.of_leg));
+    if (!s.course.is_approaching)
+      s.farthest = std::max(s.farthest, s.course.progress(r.of_leg));
   }
   s.stress_sum.setZero();
   s.held_sum.setZero();
   s.n_stress = 0;
   s.since_record = 0.0;
   if (std::abs(r.energy_error) > 0.01)
-    throw NumericalError("the energy book leaves " + std::to_string(r.energy_error) +
-                         " of the work unexplained (at most 0.01) at step " +
-                         std::to_string(s.n_steps) + ": lower `Motion/time step safety`");
+    throw Unstable("the energy book leaves " + std::to_string(r.energy_error) +
+                   " of the work unexplained (at most 0.01) at step " +
+                   std::to_string(s.n_steps) + ": lower `Motion/time step safety`");
   return r;
 }
 

@@ -3,6 +3,7 @@
 
 #include "apps/element_case.h"
 #include "dem/balance.h"
+#include "dem/collective_failure.h"
 #include "dem/io/state_file.h"
 
 namespace mergel::apps {
@@ -17,6 +18,11 @@ enum class Outcome {
   broke_off     ///< the run went unstable and stopped
 };
 std::string sentence_of(Outcome outcome);
+
+/// A run that is no longer one of physics; found on all ranks alike.
+struct Unstable : CollectiveFailure {
+  using CollectiveFailure::CollectiveFailure;
+};
 
 /// All that changes in a run: plain state.
 struct ElementState {

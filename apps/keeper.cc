@@ -164,7 +164,7 @@ void Keeper::write_now(const dem::Domain& domain, const Position& at,
         file, {MERGEL_VERSION, spec_.job, at.stage, spec_.case_text, at.step, at.time},
         std::move(mine), domain);
   } catch (const CollectiveFailure& e) {
-    throw CollectiveFailure(e.what() + remedy());
+    throw Remedied(e.what() + remedy());
   }
   if (domain.rank() == 0) dem::keep_newest(file, n_kept);
   last_ = file;
@@ -188,9 +188,17 @@ std::string Keeper::remedy() const
 
 void Keeper::rethrow_with_remedy() const
 {
-  const Verdict verdict = judge_current_exception();
-  if (verdict.code != exit_failure || verdict.is_collective) throw;
-  throw NumericalError(verdict.message + remedy());
+  try {
+    throw;
+  } catch (const Remedied&) {
+    throw;
+  } catch (const CollectiveFailure& e) {
+    throw Remedied(e.what() + remedy());
+  } catch (...) {
+    const Verdict verdict = judge_current_exception();
+    if (verdict.code != exit_failure) throw;
+    throw NumericalError(verdict.message + remedy());
+  }
 }
 
 } // namespace mergel::apps

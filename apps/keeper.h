@@ -34,9 +34,14 @@ void complete(const CaseFile& file, CheckpointKey& key);
 /// "4h", "30 min", "90 s" or "4:00:00", as --walltime takes it [s]. @throws InputError
 double to_walltime(const std::string& text);
 
-/// The run was told to stop, and did so behind a checkpoint.
-struct Stopped : CollectiveFailure {
+/// A failure whose words already say how to go on.
+struct Remedied : CollectiveFailure {
   using CollectiveFailure::CollectiveFailure;
+};
+
+/// The run was told to stop, and did so behind a checkpoint.
+struct Stopped : Remedied {
+  using Remedied::Remedied;
 };
 
 struct KeeperSpec {

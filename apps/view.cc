@@ -375,7 +375,9 @@ int main(int argc, char** argv)
       ->allow_extra_args(false);
   app.add_option("--leg", options.leg,
                  "Of element runs draw only from this leg on (2), or these legs (2-3); "
-                 "axial and volumetric strain then count from its start");
+                 "axial and volumetric strain then count from its start (of a leg that "
+                 "resumes: from that "
+                 "of the leg resumed)");
   app.add_option(
          "--points", options.points,
          "Points to lay over curves: a CSV file of two columns named as the axes of a "

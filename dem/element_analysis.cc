@@ -79,9 +79,10 @@ std::optional<CurvePoint> first_collapse(const Curve& c, double share)
   return {};
 }
 
-double friction_angle(double eta)
+double friction_angle(const Vec3& stress)
 {
-  return std::asin(std::clamp(3.0 * eta / (6.0 + eta), -1.0, 1.0)); // eta > -6: p > 0
+  const double s1 = stress.maxCoeff(), s3 = stress.minCoeff();
+  return std::asin(std::min(1.0, (s1 - s3) / (s1 + s3)));
 }
 
 std::optional<StraightLine> fit_line(const std::vector<double>& x,

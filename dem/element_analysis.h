@@ -1,6 +1,8 @@
 /// What an engineer reads off the curves of an element test. Compression positive.
 #pragma once
 
+#include "dem/notation.h"
+
 #include <optional>
 #include <vector>
 
@@ -41,9 +43,11 @@ CurvePoint minimum_after_peak(const Curve& c);
 /// above it: the collapse of a bonded rock that later hardens on.
 std::optional<CurvePoint> first_collapse(const Curve& c, double share);
 
-/// Angle of Mohr and Coulomb without cohesion that q/p mobilises in triaxial compression
-/// [rad]: sin phi = 3 eta/(6 + eta).
-double friction_angle(double eta);
+/// Angle of Mohr and Coulomb without cohesion that a state mobilises [rad]:
+/// sin phi = (sigma_1 - sigma_3)/(sigma_1 + sigma_3), of the stresses along the axes, any
+/// order. In triaxial compression that is 3 eta/(6 + eta), eta = q/p.
+/// @pre the largest and the least have a positive sum
+double friction_angle(const Vec3& stress);
 
 struct StraightLine {
   double intercept, slope;

@@ -233,9 +233,11 @@ CellOrder Course::order(const SoilState& s, double rate) const
   AxisOrder &x = axes[0], &y = axes[1], &z = axes[2];
   const double held = at_zero + slope * driven(s);
   switch (follow) {
-  case Follow::mean:
-    x = y = z = {true, -s.p(), extension / std::sqrt(3.0)};
+  case Follow::mean: {
+    const double p = is_approaching ? driven_at_start : s.p();
+    x = y = z = {true, -p, extension / std::sqrt(3.0)};
     break;
+  }
   case Follow::nothing:
     z.rate = extension;
     break;

@@ -61,15 +61,18 @@ TEST_CASE("Peak, collapse and minimum are found in their order", "[unit][dem]")
   CHECK(minimum_after_peak(c).stress == 9.0);
 }
 
-TEST_CASE("The friction angle of q/p is that of Mohr's circle", "[unit][dem]")
+TEST_CASE("The friction angle is that of Mohr's circle, whichever axis is pressed most",
+          "[unit][dem]")
 {
-  // sigma_1/sigma_3 = (1 + sin phi)/(1 - sin phi)
+  // sigma_1/sigma_3 = (1 + sin phi)/(1 - sin phi); sigma_2 does not count
   for (const double phi : {0.3, 0.6}) {
     const double s1 = (1.0 + std::sin(phi)) / (1.0 - std::sin(phi)), s3 = 1.0;
-    CHECK(friction_angle((s1 - s3) / ((s1 + 2.0 * s3) / 3.0)) ==
-          Approx(phi).epsilon(1e-12));
+    for (const Vec3& stress : {Vec3(s3, s3, s1), Vec3(s1, s1, s3), Vec3(s1, s3, 1.1)})
+      CHECK(friction_angle(stress) == Approx(phi).epsilon(1e-12));
   }
-  CHECK(friction_angle(1.37) * 180.0 / pi == Approx(34.0).margin(0.2)); // paper, Fig. 15
+  // q/p = 1.37 is 34 degrees in the paper, Fig. 15: lateral 1, axial a with (a - 1)/(a + 2) = 1.37/3
+  const double a = (3.0 + 2.0 * 1.37) / (3.0 - 1.37);
+  CHECK(friction_angle({1.0, 1.0, a}) * 180.0 / pi == Approx(34.0).margin(0.2));
 }
 
 TEST_CASE("The critical state line is recovered from states on it, with R2 below 1 off it",

@@ -203,6 +203,17 @@ TEST_CASE("A leg whose lateral stress is elsewhere approaches it before it is dr
   }
   course.is_approaching = false;
   CHECK_FALSE(course.order(now, 1.0)[2].holds_stress);
+
+  // Towards equal stresses p stays: it is held at what it was, wherever it has gone since.
+  cell.lead(leg(PathKind::triaxial, Quantity::axial_strain, 2e-3), course);
+  const SoilState sheared = cell.state(cell.size);
+  course = set_out(leg(PathKind::isotropic, Quantity::p, 4e6), course, sheared, cell.size);
+  course.is_approaching = true;
+  course.remaining = 0.0;
+  SoilState lower = sheared;
+  lower.stress *= 0.9;
+  for (const AxisOrder& axis : course.order(lower, 1.0))
+    CHECK(axis.stress == Approx(-sheared.p()));
 }
 
 TEST_CASE("A leg that cannot reach its goal by its kind is refused", "[unit][dem]")

@@ -45,7 +45,14 @@ work() {
     case=$name.prm
   fi
   "$mergel" "$job" "$case" "${settings[@]}" --output "$name" --overwrite >"$name.log" 2>&1 ||
-    { echo "$name: $(tail -1 "$name.log")"; return 1; }
+    {
+      [ ! -e "$name/summary.json" ] || mv "$name/summary.json" "$name/summary.failed.json" # it is run again
+      echo "$name: $(tail -1 "$name.log")"
+      return 1
+    }
+  if [ "$job" = element ] && ! grep -q '"outcome": "goal reached"\|pulled apart' "$name/summary.json"; then
+    echo "$name ended early: $(grep -m 1 '"outcome"' "$name/summary.json")"
+  fi
 }
 export -f work
 all_done() {
