@@ -290,7 +290,7 @@ fig11() {
 fig7() {
   local k f set path name keys
   local sets=("reference 90 9" "sc180 180 9" "sc450 450 9" "sc900 900 9" "C4.5 90 4.5" "C18 90 18" "C45 90 45")
-  local paths=("0" "0.5" "1" "1.5" "2" "3")
+  local paths=("0" "0.75" "1.5" "3")
   for k in dense loose; do specimen "$k" $k; done
   all_done
   for f in "${flows[@]}"; do

@@ -50,6 +50,6 @@ for rock in dense loose; do
     points "$set" "$set" "p [Pa],q [Pa]" '$1 == "'$rock'" && $2 == "published" && $3 == "'$set'" && $5 != "nan" { print $5 "," $6 }' fig7.csv
     marks+=(--points "$work/$set.csv")
   done
-  picture curve.png fig7_$rock.png fig7/${rock}_published_reference_{0,1,3} --label "isotropic" --label "dq/dp = 1" --label "dq/dp = 3" \
+  picture curve.png fig7_$rock.png fig7/${rock}_published_reference_{0,0.75,1.5,3} --label "isotropic" --label "dq/dp = 0.75" --label "dq/dp = 1.5" --label "dq/dp = 3" \
     --curve "p:q" "${marks[@]}" --size 1100x800
 done
