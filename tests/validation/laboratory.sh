@@ -288,7 +288,7 @@ fig11() {
 
 # Elastic domains: yield along radial paths for the strengths of Table 2.
 fig7() {
-  local k f set path name keys
+  local k f set path name keys p
   local sets=("reference 90 9" "sc180 180 9" "sc450 450 9" "sc900 900 9" "C4.5 90 4.5" "C18 90 18" "C45 90 45")
   local paths=("0" "0.75" "1.5" "3")
   for k in dense loose; do specimen "$k" $k; done
@@ -311,9 +311,11 @@ fig7() {
       for set in "${sets[@]}"; do
         set -- $set
         for path in "${paths[@]}"; do
-          local p
-          p=$(value "fig7/${k}_${f}_$1_$path" "p at yield")
-          row $k "$f" "$1" "$path" "$p" "$(times "$path" "$p")"
+          name=fig7/${k}_${f}_$1_$path
+          p=$(value "$name" "p at yield")
+          # A rock that swells before it yields has no offset in volumetric strain: its first peak.
+          [ "$p" != nan ] || p=$(value "$name" "first peak before a collapse")
+          row $k "$f" "$1" "$path" "$p" "$(at "$name" "q [Pa]" "p [Pa]" "$p")"
         done
       done
     done
