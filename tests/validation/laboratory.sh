@@ -235,17 +235,17 @@ fig10() {
   for f in "${flows[@]}"; do
     for s in "${seeds[@]}"; do
       for S in 1 10 100; do
-        run "fig10/${f}_${S}_$s" scale "scale_S${S}_$s" "isotropic to p = 100 kPa; triaxial to axial strain = 5 %" "$(flow "$f")"
+        run "fig10/${f}_${S}_$s" scale "scale_S${S}_$s" "isotropic to p = 100 kPa; triaxial to axial strain = 5 %" "$(flow "$f"); Loading/reference pressure=0.1 MPa"
       done
     done
   done
   all_done
-  header fig10 flow S seed "E [Pa]" "largest q [Pa]" "strain there" "q at 5 % [Pa]" "bonds broken"
+  header fig10 flow S seed "E [Pa]" "first peak of q [Pa]" "q at 5 % [Pa]" "bonds broken"
   for f in "${flows[@]}"; do
     for S in 1 10 100; do
       for s in "${seeds[@]}"; do
         local name=fig10/${f}_${S}_$s
-        row "$f" $S "$s" "$(value "$name" "Young's modulus")" "$(value "$name" "largest q")" "$(value "$name" "strain there" 2)" \
+        row "$f" $S "$s" "$(value "$name" "Young's modulus")" "$(value "$name" "first peak before a collapse")" \
           "$(value "$name" "q at the end")" "$(value "$name" "bonds broken")"
       done
     done
