@@ -219,11 +219,7 @@ void go_on(Test& test, const CaseFile& file, const ElementCase& c, OutputFolder&
   test.seconds_before = state.get_rows<double>("seconds", 1).front();
   test.run.emplace(c, state);
   on_first_rank([&] {
-    folder.commit(inputs);
-    for (const auto& set_aside :
-         folder.cut_back(Frames::count(state), restart.checkpoint.label.step))
-      std::cout << "set aside: " << set_aside.string() << '\n';
-    file.write_resolved(folder.path() / "resolved.prm");
+    go_on_in(folder, inputs, file, restart);
     test.history.emplace(folder.path() / "history.csv", restart.folder / "history.csv",
                          state);
   });

@@ -543,11 +543,7 @@ int run_pile(const JobOptions& options)
     coupled.emplace(c.rock, state, std::move(piles), std::move(far_field),
                     std::move(interface));
     on_first_rank([&] {
-      folder.commit(inputs);
-      for (const auto& file :
-           folder.cut_back(Frames::count(state), restart->checkpoint.label.step))
-        std::cout << "set aside: " << file.string() << '\n';
-      file.write_resolved(folder.path() / "resolved.prm");
+      go_on_in(folder, inputs, file, *restart);
       output.emplace(folder.path(), c, restart->folder, state);
     });
     restart->file = bring_along(restart->file, folder.path());

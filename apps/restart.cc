@@ -1,11 +1,13 @@
 #include "apps/restart.h"
 
+#include "apps/frames.h"
 #include "apps/ranks.h"
 #include "apps/words.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
 
 #include <algorithm>
+#include <iostream>
 #include <sstream>
 #include <system_error>
 
@@ -201,6 +203,16 @@ OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& 
   if (restart)
     return {options.output, options.overwrite ? Earlier::overwrite : Earlier::keep};
   return folder_to_begin_in(options);
+}
+
+void go_on_in(OutputFolder& folder, const std::vector<std::filesystem::path>& inputs,
+              const CaseFile& file, const Restart& restart)
+{
+  folder.commit(inputs);
+  const std::size_t n_frames = Frames::count(restart.checkpoint.state);
+  for (const auto& set_aside : folder.cut_back(n_frames, restart.checkpoint.label.step))
+    std::cout << "set aside: " << set_aside.string() << '\n';
+  file.write_resolved(folder.path() / "resolved.prm");
 }
 
 fs::path bring_along(const fs::path& checkpoint, const fs::path& folder)

@@ -50,6 +50,13 @@ OutputFolder folder_to_begin_in(const JobOptions& options);
 /// @throws InputError as folder_to_begin_in()
 OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart);
 
+/// Make a folder ready to go on in: what the run wrote behind the checkpoint goes, newer
+/// checkpoints are set aside, which is said, and the resolved case is written. On the first
+/// rank.
+/// @param inputs as of OutputFolder::commit()
+void go_on_in(OutputFolder& folder, const std::vector<std::filesystem::path>& inputs,
+              const CaseFile& file, const Restart& restart);
+
 /// Bring the checkpoint into the folder where the run goes on, if that is another: a run that
 /// ends before its own first one can be restarted from there too. Returns where it is.
 /// Collective.
