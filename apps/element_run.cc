@@ -10,7 +10,10 @@ namespace mergel::apps {
 namespace {
 
 constexpr std::size_t steps_between_checks = 100;
-constexpr std::size_t steps_of_ramp = 300;  ///< in which a leg gathers speed
+/// Steps in which a leg gathers speed. Stress on the sides that grows with it, a per step of
+/// the full rate, is met by the servo with an error of (tau_i/dt)^2/(m n) a = 5 a/m on a ramp
+/// of n = 2000 steps; without a ramp with 18 to 22 a/m (see Servo for m and tau_i).
+constexpr std::size_t steps_of_ramp = 2000;
 constexpr double most_over_driven = 10.0;   ///< of a held axis' rate
 constexpr double least_stiffness = 1e-3;    ///< that the servo counts with, of the first
 constexpr double left_of_tension = 0.05;    ///< below which a specimen is pulled apart
