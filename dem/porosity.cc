@@ -24,15 +24,23 @@ public:
   {
     const Vec3 c = (b.x - low_) / h_;
     const double R = b.R / h_;
-    long from[3], to[3];
-    for (int a = 0; a < 3; ++a) {
-      from[a] = std::max(0L, static_cast<long>(std::ceil(c[a] - R)));
-      to[a] = std::min(n_[a] - 1, static_cast<long>(c[a] + R));
+    const auto range = [&](int a, double half) {
+      const double last = static_cast<double>(n_[a] - 1);
+      return std::pair(static_cast<long>(std::ceil(std::max(0.0, c[a] - half))),
+                       static_cast<long>(std::floor(std::min(last, c[a] + half))));
+    };
+    const auto [k_first, k_last] = range(2, R);
+    for (long k = k_first; k <= k_last; ++k) {
+      const double z = static_cast<double>(k) - c.z();
+      const double disc2 = R * R - z * z;
+      const auto [j_first, j_last] = range(1, std::sqrt(std::max(0.0, disc2)));
+      for (long j = j_first; j <= j_last; ++j) {
+        const double y = static_cast<double>(j) - c.y();
+        const auto [first, last] = range(0, std::sqrt(std::max(0.0, disc2 - y * y)));
+        const auto row = solid_.begin() + index(0, j, k);
+        if (first <= last) std::fill(row + first, row + last + 1, true);
+      }
     }
-    for (long k = from[2]; k <= to[2]; ++k)
-      for (long j = from[1]; j <= to[1]; ++j)
-        for (long i = from[0]; i <= to[0]; ++i)
-          if ((at(i, j, k) - c).squaredNorm() < R * R) solid_[index(i, j, k)] = true;
   }
 
   /// Visit every point: visit(x, is solid).
@@ -42,7 +50,8 @@ public:
     for (long k = 0; k < n_[2]; ++k)
       for (long j = 0; j < n_[1]; ++j)
         for (long i = 0; i < n_[0]; ++i)
-          visit(Vec3(low_ + h_ * at(i, j, k)), solid_[index(i, j, k)]);
+          visit(Vec3(low_ + h_ * at(i, j, k)),
+                solid_[static_cast<std::size_t>(index(i, j, k))]);
   }
 
 private:
@@ -50,10 +59,7 @@ private:
   {
     return {static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
   }
-  std::size_t index(long i, long j, long k) const
-  {
-    return static_cast<std::size_t>((k * n_[1] + j) * n_[0] + i);
-  }
+  long index(long i, long j, long k) const { return (k * n_[1] + j) * n_[0] + i; }
 
   Vec3 low_;
   double h_;
@@ -86,11 +92,15 @@ double core_porosity(const Region& region, const Particles& p)
   Raster raster(box, h);
   for (const Body& b : p.body) raster.fill(b);
   std::size_t points = 0, filled = 0;
-  raster.visit([&](const Vec3& x, bool is_solid) {
-    if (depth(region, x, margin) < margin) return;
-    ++points;
-    filled += is_solid;
-  });
+  std::visit(
+      [&](const auto& shape) {
+        raster.visit([&](const Vec3& x, bool is_solid) {
+          if (!is_inside_by(shape, x, margin)) return;
+          ++points;
+          filled += is_solid;
+        });
+      },
+      region);
   require(points > 0, "the region has no core: it is not three largest grains wide");
   return 1.0 - static_cast<double>(filled) / static_cast<double>(points);
 }

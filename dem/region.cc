@@ -115,7 +115,7 @@ Side side(const HalfCylinder& c, const Vec3& x)
   return side_of(c, x);
 }
 
-double depth(const Region& region, const Vec3& x, double reach)
+double depth(const Region& region, const Vec3& x)
 {
   double least = std::numeric_limits<double>::infinity();
   const auto visit = [&least](double clearance, const Vec3&, Boundary) {
@@ -125,12 +125,12 @@ double depth(const Region& region, const Vec3& x, double reach)
   std::visit(Cases{[](const PeriodicBox&) {},
                    [&](const Cylinder& c) {
                      visit_ends(c.height, x, visit);
-                     visit_side(c, x, std::min(least, reach), visit);
+                     visit_side(c, x, least, visit);
                    },
                    [&](const HalfCylinder& c) {
                      visit(x.y(), Vec3(Vec3::UnitY()), Boundary::cut);
                      visit_ends(c.height, x, visit);
-                     visit_side(c, x, std::min(least, reach), visit);
+                     visit_side(c, x, least, visit);
                    }},
              region);
   return least;

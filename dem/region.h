@@ -87,10 +87,34 @@ void visit_boundaries(const HalfCylinder& c, const Vec3& x, double reach, Visit&
   visit_ends(c.height, x, visit);
 }
 
-/// Distance to the nearest boundary, inside positive; infinite in a periodic box [m]. A side
-/// further than `reach` may be left out.
-double depth(const Region& region, const Vec3& x,
-             double reach = std::numeric_limits<double>::infinity());
+/// Distance to the nearest boundary, inside positive; infinite in a periodic box [m].
+double depth(const Region& region, const Vec3& x);
+
+/// Whether x is `margin` [m], > 0, away from every boundary, or further: depth(x) >= margin,
+/// for many points.
+inline bool is_inside_by(const PeriodicBox&, const Vec3&, double)
+{
+  return true;
+}
+template <class Prism>
+bool is_inside_prism_by(const Prism& c, const Vec3& x, double margin)
+{
+  if (-x.z() < margin || x.z() + c.height < margin) return false;
+  const double r2 = x.x() * x.x() + x.y() * x.y();
+  // A chord is never further off than the circle through its ends.
+  const double most = c.radius - margin, sure = apothem_bound(c) - margin;
+  if (most < 0.0 || r2 > most * most) return false;
+  if (sure > 0.0 && r2 < sure * sure) return true;
+  return side(c, x).clearance >= margin;
+}
+inline bool is_inside_by(const Cylinder& c, const Vec3& x, double margin)
+{
+  return is_inside_prism_by(c, x, margin);
+}
+inline bool is_inside_by(const HalfCylinder& c, const Vec3& x, double margin)
+{
+  return x.y() >= margin && is_inside_prism_by(c, x, margin);
+}
 
 double volume(const Region& region);        ///< [m^3]
 double least_width(const Region& region);   ///< a sphere of this diameter just fits [m]

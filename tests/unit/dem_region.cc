@@ -57,6 +57,26 @@ TEST_CASE("The depth of a point is its distance to the nearest solid face", "[un
   CHECK(std::isinf(depth(box, {9.0, 9.0, 9.0})));
 }
 
+TEST_CASE("What is inside by a margin is that deep", "[unit][dem]")
+{
+  int n_inside = 0;
+  const auto compare = [&](const auto& shape, double margin) {
+    for (std::uint64_t k = 0; k < 20000; ++k) {
+      const Vec3 x = place(shape, {uniform(6, k, 0), uniform(6, k, 1), uniform(6, k, 2)});
+      if (is_inside_by(shape, x, margin) != (depth(shape, x) >= margin)) return false;
+      n_inside += is_inside_by(shape, x, margin);
+    }
+    return true;
+  };
+  // Near the least width nothing is left; the chords of these prisms are far from their circle.
+  for (const double margin : {0.01, 0.2, 0.5, 1.1, 2.0}) {
+    CHECK(compare(box, margin));
+    CHECK(compare(cylinder, margin));
+    CHECK(compare(half, margin));
+  }
+  CHECK(n_inside > 120000); // of 300,000; 100,000 are in the box, which has no boundary
+}
+
 TEST_CASE("The cut of a half cylinder bounds it and is no solid face", "[unit][dem]")
 {
   CHECK(depth(half, {0.0, 0.1, -1.0}) == Approx(0.1));
