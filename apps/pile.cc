@@ -47,17 +47,6 @@ void check_new_end(const CaseFile& file, const PileCase& c, const Restart& resta
           "for one of the two: restore it, or take an older checkpoint");
 }
 
-/// Files that the run reads after the folder was looked at.
-std::vector<std::filesystem::path> inputs_of(const JobOptions& options, const PileCase& c,
-                                             const std::optional<Restart>& restart)
-{
-  std::vector<std::filesystem::path> inputs;
-  if (options.restart.empty()) inputs.push_back(options.case_file);
-  if (restart) inputs.push_back(restart->file);
-  if (!restart && !c.rock.sample.empty()) inputs.push_back(c.rock.sample);
-  return inputs;
-}
-
 /// What a run had done before this start of the program.
 struct WorkBefore {
   std::size_t n_steps = 0;
@@ -69,11 +58,10 @@ WorkBefore take_work(const dem::Checkpoint& checkpoint)
   return {checkpoint.label.step, checkpoint.state.get_rows<double>("seconds", 1).front()};
 }
 
-void go_on(Installation& run, const dem::State& state,
-           const std::vector<CaseFile::Change>& changed)
+void go_on(Installation& run, const Restart& restart)
 {
-  run.take(state);
-  for (const CaseFile::Change& c : changed) {
+  run.take(restart.checkpoint.state);
+  for (const CaseFile::Change& c : restart.changed) {
     if (c.key == "record every") run.space_records_anew();
     if (c.key == "final depth" || c.key == "frames") run.space_frames_anew();
   }
@@ -84,26 +72,17 @@ void go_on(Installation& run, const dem::State& state,
 int run_pile(const JobOptions& options)
 {
   const double start = dem::wall_clock();
-  std::optional<Restart> restart = find_restart(options.restart, "pile");
   CaseFile file;
   PileCase c;
-  declare(file, c);
-  std::vector<CaseFile::Change> changed;
-  on_every_rank([&] {
-    read_case(file, options, restart);
-    complete(file, c);
-    if (!restart) return;
-    changed = check_case(file, *restart, free_keys);
-    check_new_end(file, c, *restart);
-  });
-  if (restart) std::cout << report(*restart, changed) << '\n';
-  OutputFolder folder(options.output, Earlier::keep);
-  const auto inputs = inputs_of(options, c, restart);
-  on_first_rank([&] {
-    folder = folder_of(options, restart);
-    folder.check(inputs);
-    if (restart) PileOutput::check(restart->folder, restart->checkpoint.state);
-  });
+  std::optional<Restart> restart = take_up(file, c, options, "pile", free_keys);
+  if (restart) {
+    on_every_rank([&] { check_new_end(file, c, *restart); });
+    std::cout << report(*restart) << '\n';
+  }
+  const auto inputs = inputs_of(options, restart, {c.rock.sample});
+  OutputFolder folder = folder_of(options, restart, inputs);
+  if (restart)
+    on_first_rank([&] { PileOutput::check(restart->folder, restart->checkpoint.state); });
 
   fem::FarField far_field = make_far_field(c.rock);
   coupling::Interface interface =
@@ -144,7 +123,7 @@ int run_pile(const JobOptions& options)
                  .end = start + options.walltime,
                  .restarted_from = restart ? restart->file : std::filesystem::path{}});
   bool is_driving = restart && Installation::is_in(restart->checkpoint.state);
-  if (is_driving) go_on(run, restart->checkpoint.state, changed);
+  if (is_driving) go_on(run, *restart);
   restart.reset(); // its arrays are no longer needed
   const auto after_step = [&] {
     keeper.after_step(
