@@ -1,5 +1,6 @@
 #include "apps/output_folder.h"
 
+#include "apps/restart.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
 
@@ -234,6 +235,42 @@ TEST_CASE("What a run wrote after its checkpoint is cut back, and nothing else",
             ".mergel.lock", "checkpoint_000000000100.h5", "checkpoint_000000000200.h5",
             "checkpoint_000000000300.h5.aside", "damage.png", "fields", "fields/mine.vtp",
             "fields/particles_0000.vtp", "history.csv", "notes.txt", "resolved.prm"});
+}
+
+TEST_CASE("A checkpoint set aside leaves those set aside before as they are",
+          "[unit][apps]")
+{
+  const Folder folder;
+  const fs::path checkpoint = folder.path / "checkpoint_000000000300.h5";
+  const auto beside = [&](const char* ending) {
+    return fs::path(checkpoint.string() + ending);
+  };
+  const auto text_of = [](const fs::path& file) {
+    std::ifstream in(file);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  for (const char* ending : {".aside", ".aside-2", ".aside-3"}) {
+    std::ofstream(checkpoint) << "of " << ending;
+    OutputFolder out(folder.path, Earlier::go_on);
+    out.commit();
+    CHECK(out.cut_back(0, 200) == std::vector<fs::path>{beside(ending)});
+  }
+  for (const char* ending : {".aside", ".aside-2", ".aside-3"})
+    CHECK(text_of(beside(ending)) == std::string("of ") + ending);
+
+  // each of them is what an earlier run left
+  fs::remove(beside(".aside"));
+  touch(beside(".aside-two"));
+  CHECK_THAT(refusal(folder.path, Earlier::keep),
+             Contains("holds an earlier run (checkpoint_000000000300.h5.aside-2)"));
+  OutputFolder(folder.path, Earlier::overwrite).commit();
+  CHECK(tree(folder.path) ==
+        std::vector<std::string>{"checkpoint_000000000300.h5.aside-two"});
+
+  fs::rename(beside(".aside-two"), beside(".aside-2"));
+  JobOptions options;
+  options.output = options.restart = folder.path;
+  CHECK_THROWS_WITH(folder_to_begin_in(options), Contains("holds a run with checkpoints"));
 }
 
 TEST_CASE("A folder where a run is writing is refused to another until it ends",
