@@ -5,6 +5,7 @@
 #include "apps/pile_summary.h"
 #include "apps/ranks.h"
 #include "apps/restart.h"
+#include "apps/specimen.h"
 
 #include <algorithm>
 #include <iostream>

@@ -6,6 +6,7 @@
 #include "apps/pile_case.h"
 #include "apps/ranks.h"
 #include "apps/restart.h"
+#include "apps/specimen.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/rock_fields.h"
 
