@@ -3,6 +3,7 @@
 #include "apps/restart.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -22,26 +23,6 @@ using Catch::Matchers::Contains;
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder of its own for one test.
-class Folder {
-public:
-  Folder()
-  {
-    std::string name = (fs::temp_directory_path() / "mergel_out_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder()
-  {
-    fs::permissions(path, fs::perms::owner_all);
-    fs::remove_all(path);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  fs::path path;
-};
 
 void touch(const fs::path& file)
 {
@@ -88,7 +69,7 @@ const std::vector<std::string> own = {
 
 TEST_CASE("check() changes nothing and commit() makes the folder", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   OutputFolder output(folder.path / "results" / "pile", Earlier::keep);
   output.check();
   CHECK(tree(folder.path).empty());
@@ -101,7 +82,7 @@ TEST_CASE("check() changes nothing and commit() makes the folder", "[unit][apps]
 
 TEST_CASE("A folder of other files is taken as it is", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   touch(folder.path / "notes.txt");
   touch(folder.path / "history.csv.bak");
   touch(folder.path / "photo.png");
@@ -116,7 +97,7 @@ TEST_CASE("A folder of other files is taken as it is", "[unit][apps]")
 TEST_CASE("Each file of an earlier run is recognised and kept", "[unit][apps]")
 {
   for (const std::string& name : own) {
-    const Folder folder;
+    const TemporaryFolder folder;
     touch(folder.path / name);
     const auto before = tree(folder.path);
     CHECK(refusal(folder.path, Earlier::keep) ==
@@ -129,7 +110,7 @@ TEST_CASE("Each file of an earlier run is recognised and kept", "[unit][apps]")
 
 TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path results = folder.path / "results";
   const std::vector<std::string> others = {
       "case.prm",           "damage.png.txt", "figure.png",
@@ -155,7 +136,7 @@ TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps
 
 TEST_CASE("--overwrite removes links, never what they point to", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path results = folder.path / "results";
   touch(folder.path / "precious" / "sample.h5");
   fs::create_directory(results);
@@ -168,7 +149,7 @@ TEST_CASE("--overwrite removes links, never what they point to", "[unit][apps]")
 
 TEST_CASE("--overwrite does not remove what the run is to read", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path sample = folder.path / "sample.h5",
                  field = folder.path / "fields/pile_0003.vtp";
   touch(sample);
@@ -187,7 +168,7 @@ TEST_CASE("--overwrite does not remove what the run is to read", "[unit][apps]")
 
 TEST_CASE("Something in the way of the folder is named", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path / "file";
   touch(file);
   for (const fs::path& wanted : {file, file / "results", file / "results" / "pile"})
@@ -206,7 +187,7 @@ TEST_CASE("A folder that cannot be written is refused before it is used", "[unit
   CHECK_THROWS_WITH(OutputFolder("/proc/mergel", Earlier::keep).commit(),
                     Contains("output folder /proc/mergel: cannot be"));
   if (geteuid() == 0) return; // root may write everywhere
-  const Folder folder;
+  const TemporaryFolder folder;
   fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
   CHECK_THAT(refusal(folder.path / "results", Earlier::keep),
              Contains("cannot be written: Permission denied"));
@@ -215,7 +196,7 @@ TEST_CASE("A folder that cannot be written is refused before it is used", "[unit
 TEST_CASE("What a run wrote after its checkpoint is cut back, and nothing else",
           "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const char* file :
        {"history.csv", "resolved.prm", "summary.json", "notes.txt", "damage.png",
         "checkpoint_000000000100.h5", "checkpoint_000000000200.h5",
@@ -240,7 +221,7 @@ TEST_CASE("What a run wrote after its checkpoint is cut back, and nothing else",
 TEST_CASE("A checkpoint set aside leaves those set aside before as they are",
           "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path checkpoint = folder.path / "checkpoint_000000000300.h5";
   const auto beside = [&](const char* ending) {
     return fs::path(checkpoint.string() + ending);
@@ -276,7 +257,7 @@ TEST_CASE("A checkpoint set aside leaves those set aside before as they are",
 TEST_CASE("A folder where a run is writing is refused to another until it ends",
           "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder.path / ".mergel.lock") << "of a run that was killed";
   {
     OutputFolder output(folder.path, Earlier::go_on);
