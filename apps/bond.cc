@@ -285,9 +285,7 @@ void drive_bond(const JobOptions& options)
   read_case(file, options, std::nullopt);
   const auto path = corners(file, c);
   OutputFolder folder = folder_to_begin_in(options);
-  std::vector<std::filesystem::path> inputs;
-  if (options.restart.empty()) inputs.push_back(options.case_file);
-  if (!c.path.empty()) inputs.push_back(c.path);
+  const auto inputs = inputs_of(options, std::nullopt, {c.path});
   folder.commit(inputs);
   file.write_resolved(folder.path() / "resolved.prm");
 

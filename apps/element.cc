@@ -151,12 +151,11 @@ std::vector<std::string> free_keys()
 }
 
 /// Refuse other legs up to the one that is under way.
-void check_legs(const CaseFile& file, const ElementCase& c, const Restart& restart,
-                const std::vector<CaseFile::Change>& changed)
+void check_legs(const CaseFile& file, const ElementCase& c, const Restart& restart)
 {
-  const auto leg = std::find_if(changed.begin(), changed.end(),
+  const auto leg = std::find_if(restart.changed.begin(), restart.changed.end(),
                                 [](const auto& k) { return k.section == "Loading"; });
-  if (leg == changed.end()) return;
+  if (leg == restart.changed.end()) return;
   CaseFile earlier_file;
   ElementCase earlier;
   declare(earlier_file, earlier);
@@ -171,19 +170,6 @@ void check_legs(const CaseFile& file, const ElementCase& c, const Restart& resta
         "was \"" + leg->was + "\", and the checkpoint stands in leg " + std::to_string(n) +
             " of the test: only legs behind that may change. Restore it, or take an "
             "older checkpoint");
-}
-
-/// Files that the run reads after the folder was looked at.
-std::vector<std::filesystem::path> inputs_of(const JobOptions& options,
-                                             const ElementCase& c,
-                                             const std::optional<Restart>& restart)
-{
-  std::vector<std::filesystem::path> inputs;
-  if (options.restart.empty()) inputs.push_back(options.case_file);
-  if (restart) inputs.push_back(restart->file);
-  for (const auto& input : {c.specimen.sample, c.specimen.table})
-    if (!restart && !input.empty()) inputs.push_back(input);
-  return inputs;
 }
 
 void put(dem::State& state, const Test& test)
@@ -232,28 +218,20 @@ void go_on(Test& test, const CaseFile& file, const ElementCase& c, OutputFolder&
 int run_element(const JobOptions& options)
 {
   const double start = dem::wall_clock();
-  std::optional<Restart> restart = find_restart(options.restart, "element");
   CaseFile file;
   ElementCase c;
-  declare(file, c);
-  std::vector<CaseFile::Change> changed;
-  on_every_rank([&] {
-    read_case(file, options, restart);
-    complete(file, c);
-    if (!restart) return;
-    changed = check_case(file, *restart, free_keys());
-    check_legs(file, c, *restart, changed);
-  });
-  if (restart) std::cout << report(*restart, changed) << '\n';
-  OutputFolder folder(options.output, Earlier::keep);
-  const auto inputs = inputs_of(options, c, restart);
-  on_first_rank([&] {
-    folder = folder_of(options, restart);
-    folder.check(inputs);
-    if (!restart) return;
-    ElementHistory::check(restart->folder / "history.csv", restart->checkpoint.state);
-    ElementPictures::check(restart->folder, restart->checkpoint.state);
-  });
+  std::optional<Restart> restart = take_up(file, c, options, "element", free_keys());
+  if (restart) {
+    on_every_rank([&] { check_legs(file, c, *restart); });
+    std::cout << report(*restart) << '\n';
+  }
+  const auto inputs = inputs_of(options, restart, {c.specimen.sample, c.specimen.table});
+  OutputFolder folder = folder_of(options, restart, inputs);
+  if (restart)
+    on_first_rank([&] {
+      ElementHistory::check(restart->folder / "history.csv", restart->checkpoint.state);
+      ElementPictures::check(restart->folder, restart->checkpoint.state);
+    });
 
   Test test;
   if (restart)

@@ -1,5 +1,6 @@
 #include "apps/element_case.h"
 
+#include "apps/specimen.h"
 #include "apps/units.h"
 #include "apps/words.h"
 #include "dem/error.h"

@@ -36,11 +36,23 @@ constexpr std::string_view own_folder = "fields";
   throw InputError("output folder " + path.string() + ": " + message);
 }
 
-constexpr std::string_view aside = ".aside";
-
+/// checkpoint_000000000300.h5.aside, .aside-2 and so on.
 bool is_set_aside(const fs::path& name)
 {
-  return name.extension() == aside && dem::is_checkpoint_name(name.stem());
+  static const std::regex form("\\.aside(-[0-9]+)?");
+  return std::regex_match(name.extension().string(), form) &&
+         dem::is_checkpoint_name(name.stem());
+}
+
+/// The first of these names that is free.
+fs::path name_aside(const fs::path& checkpoint)
+{
+  for (int n = 1;; ++n) {
+    fs::path name = checkpoint;
+    name += n == 1 ? ".aside" : ".aside-" + std::to_string(n);
+    std::error_code error; // what cannot be looked at cannot be renamed either
+    if (!fs::exists(fs::symlink_status(name, error))) return name;
+  }
 }
 
 bool is_own_file(const fs::path& name)
@@ -198,8 +210,7 @@ std::vector<fs::path> OutputFolder::cut_back(std::size_t n_frames, std::uint64_t
   for (const fs::path& file : left_by_earlier_run()) {
     const fs::path name = file.filename();
     if (dem::is_checkpoint_name(name) && dem::is_later(name, dem::checkpoint_name(step))) {
-      set_aside.push_back(file);
-      set_aside.back() += aside;
+      set_aside.push_back(name_aside(file));
       std::error_code error; // left in its place it would be taken for this run's
       fs::rename(file, set_aside.back(), error);
       if (error)

@@ -23,8 +23,8 @@ enum class Earlier {
 /// summary.json, sample.h5, the four series particles, bonds, pile and far_field (.pvd, and
 /// their numbered files in fields/), mergel-view's damage.png, load.png, displacement.png,
 /// loads.png, surface.png, element.png, isotropic.png and curve.png, the checkpoints
-/// checkpoint_*.h5 and *.h5.aside; also their temporary files (dem/io/atomic_file.h).
-/// fields/ itself goes when nothing else is in it.
+/// checkpoint_*.h5 and *.h5.aside, .aside-2 and so on; also their temporary files
+/// (dem/io/atomic_file.h). fields/ itself goes when nothing else is in it.
 class OutputFolder {
 public:
   OutputFolder(std::filesystem::path folder, Earlier earlier);
@@ -47,7 +47,8 @@ public:
 
   /// Remove what the earlier run wrote after a checkpoint, and what it left unfinished:
   /// frames from `n_frames` on, the summary, temporary files. Checkpoints after `step` are
-  /// set aside, whatever is wrong with them: checkpoint_<step>.h5.aside.
+  /// set aside, whatever is wrong with them: checkpoint_<step>.h5.aside, or .aside-2 and so
+  /// on where that is taken.
   /// @return the new names of these
   /// @throws NumericalError when one cannot be renamed
   std::vector<std::filesystem::path> cut_back(std::size_t n_frames,

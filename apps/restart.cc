@@ -1,7 +1,6 @@
 #include "apps/restart.h"
 
 #include "apps/frames.h"
-#include "apps/ranks.h"
 #include "apps/words.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
@@ -143,12 +142,11 @@ void read_case(CaseFile& file, const JobOptions& options,
   file.read(resolved, options.set);
 }
 
-std::vector<CaseFile::Change> check_case(const CaseFile& file, const Restart& restart,
-                                         const std::vector<std::string>& free)
+void check_case(const CaseFile& file, Restart& restart,
+                const std::vector<std::string>& free)
 {
-  std::vector<CaseFile::Change> changes =
-      file.changes_since(restart.checkpoint.label.case_text);
-  for (const CaseFile::Change& c : changes) {
+  restart.changed = file.changes_since(restart.checkpoint.label.case_text);
+  for (const CaseFile::Change& c : restart.changed) {
     const std::string key = c.section + "/" + c.key;
     if (std::find(free.begin(), free.end(), key) == free.end())
       throw InputError("--restart " + restart.file.string() + ": " + key + " was " +
@@ -156,7 +154,18 @@ std::vector<CaseFile::Change> check_case(const CaseFile& file, const Restart& re
                        ". Restore it, or begin a new run; a restart may change only " +
                        joined(free, ", ") + ".");
   }
-  return changes;
+}
+
+std::vector<fs::path> inputs_of(const JobOptions& options,
+                                const std::optional<Restart>& restart,
+                                const std::vector<fs::path>& others)
+{
+  std::vector<fs::path> inputs;
+  if (options.restart.empty()) inputs.push_back(options.case_file);
+  if (restart) inputs.push_back(restart->file);
+  for (const fs::path& other : others)
+    if (!restart && !other.empty()) inputs.push_back(other);
+  return inputs;
 }
 
 namespace {
@@ -193,16 +202,30 @@ OutputFolder folder_to_begin_in(const JobOptions& options)
           options.overwrite || begins_again ? Earlier::overwrite : Earlier::keep};
 }
 
-OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart)
+namespace {
+
+/// On the first rank alone.
+OutputFolder chosen_folder(const JobOptions& options, const std::optional<Restart>& restart)
 {
   std::error_code error;
-  const auto is_output = [&](const fs::path& folder) {
-    return fs::equivalent(options.output, folder, error);
-  };
-  if (restart && is_output(restart->folder)) return {options.output, Earlier::go_on};
+  if (restart && fs::equivalent(options.output, restart->folder, error))
+    return {options.output, Earlier::go_on};
   if (restart)
     return {options.output, options.overwrite ? Earlier::overwrite : Earlier::keep};
   return folder_to_begin_in(options);
+}
+
+} // namespace
+
+OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart,
+                       const std::vector<fs::path>& inputs)
+{
+  OutputFolder folder(options.output, Earlier::keep);
+  on_first_rank([&] {
+    folder = chosen_folder(options, restart);
+    folder.check(inputs);
+  });
+  return folder;
 }
 
 void go_on_in(OutputFolder& folder, const std::vector<std::filesystem::path>& inputs,
@@ -234,7 +257,7 @@ fs::path bring_along(const fs::path& checkpoint, const fs::path& folder)
   return there;
 }
 
-std::string report(const Restart& restart, const std::vector<CaseFile::Change>& changed)
+std::string report(const Restart& restart)
 {
   const dem::CheckpointLabel& label = restart.checkpoint.label;
   std::ostringstream out;
@@ -244,7 +267,7 @@ std::string report(const Restart& restart, const std::vector<CaseFile::Change>& 
   if (label.program != MERGEL_VERSION)
     out << "; written by mergel " << label.program
         << ": this program may not give the same bits";
-  for (const CaseFile::Change& c : changed)
+  for (const CaseFile::Change& c : restart.changed)
     out << '\n'
         << c.section << '/' << c.key << " was " << shown(c.was) << ", is now "
         << shown(c.is);

@@ -4,6 +4,7 @@
 #include "apps/case_file.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
+#include "apps/ranks.h"
 #include "dem/io/checkpoint.h"
 
 #include <optional>
@@ -16,6 +17,7 @@ struct Restart {
   std::filesystem::path folder; ///< results of the earlier run: where the file is
   dem::Checkpoint checkpoint;
   std::vector<std::string> refused; ///< newer checkpoints that are damaged, and how
+  std::vector<CaseFile::Change> changed = {}; ///< keys of the case since, by check_case()
 };
 
 /// The checkpoint at `place`: the file, or the newest good one of a folder. Nothing when
@@ -35,20 +37,46 @@ std::filesystem::path folder_to_restart(const std::filesystem::path& place);
 void read_case(CaseFile& file, const JobOptions& options,
                const std::optional<Restart>& restart);
 
-/// Compare the case with that of the checkpoint. Returns the changed ones of the keys
-/// `free`, "Section/key".
+/// Compare the case with that of the checkpoint, for restart.changed.
+/// @param free the keys that may change, "Section/key"
 /// @throws InputError naming another key that has changed: "was X, the case asks for Y"
-std::vector<CaseFile::Change> check_case(const CaseFile& file, const Restart& restart,
-                                         const std::vector<std::string>& free);
+void check_case(const CaseFile& file, Restart& restart,
+                const std::vector<std::string>& free);
+
+/// Read the case of a job that writes checkpoints, and find what it goes on from, if it
+/// does. Collective.
+/// @param free the keys that a restart may change, "Section/key"
+/// @throws InputError as the functions above, and as complete() of the case
+template <class Case>
+std::optional<Restart> take_up(CaseFile& file, Case& c, const JobOptions& options,
+                               const std::string& job, const std::vector<std::string>& free)
+{
+  std::optional<Restart> restart = find_restart(options.restart, job);
+  declare(file, c);
+  on_every_rank([&] {
+    read_case(file, options, restart);
+    complete(file, c);
+    if (restart) check_case(file, *restart, free);
+  });
+  return restart;
+}
+
+/// Files that a run reads after its folder was looked at: its case, and its checkpoint or,
+/// when it begins, `others` as far as they are named.
+std::vector<std::filesystem::path>
+inputs_of(const JobOptions& options, const std::optional<Restart>& restart,
+          const std::vector<std::filesystem::path>& others);
 
 /// For a run that begins again: the folder of an earlier run may be used that was ended before
 /// its first checkpoint.
 /// @throws InputError when the earlier run was finished or has a checkpoint
 OutputFolder folder_to_begin_in(const JobOptions& options);
 
-/// The folder of the run: that of the checkpoint, or one to begin in.
-/// @throws InputError as folder_to_begin_in()
-OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart);
+/// The folder of the run, that of the checkpoint or one to begin in, looked at by the first
+/// rank. Collective.
+/// @throws InputError as folder_to_begin_in() and OutputFolder::check()
+OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart,
+                       const std::vector<std::filesystem::path>& inputs);
 
 /// Make a folder ready to go on in: what the run wrote behind the checkpoint goes, newer
 /// checkpoints are set aside, which is said, and the resolved case is written. On the first
@@ -65,6 +93,6 @@ std::filesystem::path bring_along(const std::filesystem::path& checkpoint,
 
 /// What the user should know: where the run goes on, what could not be read, what has
 /// changed.
-std::string report(const Restart& restart, const std::vector<CaseFile::Change>& changed);
+std::string report(const Restart& restart);
 
 } // namespace mergel::apps

@@ -6,6 +6,7 @@
 #include "apps/pile_case.h"
 #include "apps/ranks.h"
 #include "apps/restart.h"
+#include "apps/specimen.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/rock_fields.h"
 
@@ -116,8 +117,6 @@ int run_sample(const JobOptions& options)
   bool is_pile = false;
   on_first_rank([&] { folder = folder_to_begin_in(options); });
   on_every_rank([&] { is_pile = is_pile_case(options); });
-  std::vector<std::filesystem::path> inputs;
-  if (options.restart.empty()) inputs.push_back(options.case_file);
   CaseFile file;
   if (is_pile) {
     PileCase c;
@@ -127,7 +126,7 @@ int run_sample(const JobOptions& options)
       complete(file, c);
       refuse_sample(file, c.rock);
     });
-    if (!c.rock.table.empty()) inputs.push_back(c.rock.table);
+    const auto inputs = inputs_of(options, std::nullopt, {c.rock.table});
     on_first_rank([&] { folder.check(inputs); });
     make_far_field(c.rock); // sets the faces around the side
     make(file, c.rock, folder, inputs);
@@ -140,7 +139,7 @@ int run_sample(const JobOptions& options)
     refuse_sample(file, c.specimen);
     complete(file, c.specimen, c.contact);
   });
-  if (!c.specimen.table.empty()) inputs.push_back(c.specimen.table);
+  const auto inputs = inputs_of(options, std::nullopt, {c.specimen.table});
   on_first_rank([&] { folder.check(inputs); });
   make(file, c.specimen, folder, inputs);
   return 0;

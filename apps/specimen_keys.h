@@ -1,12 +1,11 @@
-/// Sections `Specimen` and `Strength variability` of a case: shape, grain sizes, upscaling,
-/// density of packing, bonding, and how strengths vary; the same in every job that makes a
-/// specimen.
+/// Section `Specimen` of a case: shape, grain sizes, upscaling, density of packing and
+/// bonding; with it how strengths vary. The same in every job that makes a specimen.
 #pragma once
 
 #include "apps/material_keys.h"
+#include "apps/strength_keys.h"
 #include "dem/io/sample_file.h"
 #include "dem/step.h"
-#include "dem/strength.h"
 
 namespace mergel::apps {
 
@@ -46,19 +45,5 @@ void complete(CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& contac
 
 /// Key and value of everything that fixes a specimen, in a fixed order.
 std::vector<std::pair<std::string, std::string>> recipe(const SpecimenKeys& k);
-
-/// Read the sample that the case names and compare its recipe, or make one, and draw the
-/// strengths of its grains; collective. Nothing is written.
-/// @throws InputError naming file, line and key
-dem::Sample obtain_sample(const CaseFile& file, const SpecimenKeys& k);
-
-/// "" without variability, else a line of its own on the strengths drawn.
-std::string report(const dem::StrengthVariability& v, const dem::Particles& p);
-
-/// One paragraph on what was reached.
-std::string report(const SpecimenKeys& k, const dem::Sample& sample);
-
-/// The same as one line of JSON a number.
-std::string summary(const SpecimenKeys& k, const dem::Sample& sample);
 
 } // namespace mergel::apps

@@ -11,7 +11,13 @@
 
 namespace mergel::dem {
 
-using Triangle = std::array<int, 3>;
+using Triangle = std::array<int, 3>; ///< numbers of its nodes
+
+/// Number of a node, triangle, edge or patch that there is, as an index.
+inline std::size_t uz(int i)
+{
+  return static_cast<std::size_t>(i);
+}
 
 /// Edges and corners of a triangulation, and its smooth patches.
 ///
@@ -97,9 +103,9 @@ struct PatchTouch {
   std::size_t n = 0;
 };
 
-/// Features with a gap below g_a S count: the faces, edges and corners whose Voronoi region holds the centre share the contact by
-/// their overlap; in a valley a second face enters with the lead it has over the fold, so
-/// that the force is continuous.
+/// Features with a gap below g_a S count: the faces, edges and corners whose Voronoi region
+/// holds the centre share the contact by their overlap; in a valley a second face enters with
+/// the lead it has over the fold, so that the force is continuous.
 /// @param wall_travel how far a node may have moved since the candidate was listed [m]
 /// @throws NumericalError when the centre is on the wrong side of the wall
 std::optional<PatchTouch> touch_patch(const Wall& wall, const ListedCandidate& candidate,

@@ -4,6 +4,7 @@
 #include "dem/error.h"
 #include "dem/io/history.h"
 #include "dem/step.h"
+#include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -13,7 +14,6 @@
 #include <fstream>
 #include <new>
 #include <sstream>
-#include <unistd.h>
 
 using namespace mergel;
 using namespace mergel::apps;
@@ -21,14 +21,6 @@ using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A folder of its own, gone with the test.
-struct Folder {
-  fs::path path =
-      fs::temp_directory_path() / ("mergel_keeper_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
 
 /// The steps at which a keeper of this cadence writes, of the first `n`.
 std::vector<std::uint64_t> steps_written(Keeper& keeper, const fs::path& folder,
@@ -79,7 +71,7 @@ TEST_CASE("A walltime is read as a cluster writes it", "[unit][apps]")
 TEST_CASE("Checkpoints come at their steps, on SIGUSR1 at the next look, and two are kept",
           "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   Keeper by_steps({.folder = folder.path,
                    .job = "pile",
                    .case_text = "",
@@ -101,7 +93,7 @@ TEST_CASE("Checkpoints come at their steps, on SIGUSR1 at the next look, and two
 TEST_CASE("SIGTERM and the end of the walltime stop a run behind a checkpoint",
           "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   Keeper keeper({.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
   std::raise(SIGTERM);
   CHECK_THROWS_WITH(steps_written(keeper, folder.path, 30),
@@ -120,7 +112,7 @@ TEST_CASE(
     "The first checkpoint before the end of the walltime gets the time of a slow disk",
     "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   Keeper keeper({.folder = folder.path,
                  .job = "pile",
                  .case_text = "",
@@ -144,7 +136,7 @@ TEST_CASE(
 TEST_CASE("A failure of a library or of memory names the last good checkpoint",
           "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Keeper keeper({.folder = folder.path,
                        .job = "pile",
                        .case_text = "",
@@ -167,7 +159,7 @@ TEST_CASE("A failure of a library or of memory names the last good checkpoint",
 
 TEST_CASE("A checkpoint that cannot be written names the last good one", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   Keeper keeper({.folder = folder.path / "gone",
                  .job = "pile",
                  .case_text = "",
@@ -181,7 +173,7 @@ TEST_CASE("A checkpoint that cannot be written names the last good one", "[unit]
 
 TEST_CASE("A history goes on where its mark is, and nowhere else", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path / "history.csv";
   const std::vector<std::string> columns{"a [m]", "b [s]"};
   dem::HistoryMark mark;

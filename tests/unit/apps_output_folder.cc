@@ -1,7 +1,9 @@
 #include "apps/output_folder.h"
 
+#include "apps/restart.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -21,26 +23,6 @@ using Catch::Matchers::Contains;
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder of its own for one test.
-class Folder {
-public:
-  Folder()
-  {
-    std::string name = (fs::temp_directory_path() / "mergel_out_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder()
-  {
-    fs::permissions(path, fs::perms::owner_all);
-    fs::remove_all(path);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  fs::path path;
-};
 
 void touch(const fs::path& file)
 {
@@ -87,7 +69,7 @@ const std::vector<std::string> own = {
 
 TEST_CASE("check() changes nothing and commit() makes the folder", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   OutputFolder output(folder.path / "results" / "pile", Earlier::keep);
   output.check();
   CHECK(tree(folder.path).empty());
@@ -100,7 +82,7 @@ TEST_CASE("check() changes nothing and commit() makes the folder", "[unit][apps]
 
 TEST_CASE("A folder of other files is taken as it is", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   touch(folder.path / "notes.txt");
   touch(folder.path / "history.csv.bak");
   touch(folder.path / "photo.png");
@@ -115,7 +97,7 @@ TEST_CASE("A folder of other files is taken as it is", "[unit][apps]")
 TEST_CASE("Each file of an earlier run is recognised and kept", "[unit][apps]")
 {
   for (const std::string& name : own) {
-    const Folder folder;
+    const TemporaryFolder folder;
     touch(folder.path / name);
     const auto before = tree(folder.path);
     CHECK(refusal(folder.path, Earlier::keep) ==
@@ -128,7 +110,7 @@ TEST_CASE("Each file of an earlier run is recognised and kept", "[unit][apps]")
 
 TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path results = folder.path / "results";
   const std::vector<std::string> others = {
       "case.prm",           "damage.png.txt", "figure.png",
@@ -154,7 +136,7 @@ TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps
 
 TEST_CASE("--overwrite removes links, never what they point to", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path results = folder.path / "results";
   touch(folder.path / "precious" / "sample.h5");
   fs::create_directory(results);
@@ -167,7 +149,7 @@ TEST_CASE("--overwrite removes links, never what they point to", "[unit][apps]")
 
 TEST_CASE("--overwrite does not remove what the run is to read", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path sample = folder.path / "sample.h5",
                  field = folder.path / "fields/pile_0003.vtp";
   touch(sample);
@@ -186,7 +168,7 @@ TEST_CASE("--overwrite does not remove what the run is to read", "[unit][apps]")
 
 TEST_CASE("Something in the way of the folder is named", "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path / "file";
   touch(file);
   for (const fs::path& wanted : {file, file / "results", file / "results" / "pile"})
@@ -205,7 +187,7 @@ TEST_CASE("A folder that cannot be written is refused before it is used", "[unit
   CHECK_THROWS_WITH(OutputFolder("/proc/mergel", Earlier::keep).commit(),
                     Contains("output folder /proc/mergel: cannot be"));
   if (geteuid() == 0) return; // root may write everywhere
-  const Folder folder;
+  const TemporaryFolder folder;
   fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
   CHECK_THAT(refusal(folder.path / "results", Earlier::keep),
              Contains("cannot be written: Permission denied"));
@@ -214,7 +196,7 @@ TEST_CASE("A folder that cannot be written is refused before it is used", "[unit
 TEST_CASE("What a run wrote after its checkpoint is cut back, and nothing else",
           "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const char* file :
        {"history.csv", "resolved.prm", "summary.json", "notes.txt", "damage.png",
         "checkpoint_000000000100.h5", "checkpoint_000000000200.h5",
@@ -236,10 +218,46 @@ TEST_CASE("What a run wrote after its checkpoint is cut back, and nothing else",
             "fields/particles_0000.vtp", "history.csv", "notes.txt", "resolved.prm"});
 }
 
+TEST_CASE("A checkpoint set aside leaves those set aside before as they are",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  const fs::path checkpoint = folder.path / "checkpoint_000000000300.h5";
+  const auto beside = [&](const char* ending) {
+    return fs::path(checkpoint.string() + ending);
+  };
+  const auto text_of = [](const fs::path& file) {
+    std::ifstream in(file);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  for (const char* ending : {".aside", ".aside-2", ".aside-3"}) {
+    std::ofstream(checkpoint) << "of " << ending;
+    OutputFolder out(folder.path, Earlier::go_on);
+    out.commit();
+    CHECK(out.cut_back(0, 200) == std::vector<fs::path>{beside(ending)});
+  }
+  for (const char* ending : {".aside", ".aside-2", ".aside-3"})
+    CHECK(text_of(beside(ending)) == std::string("of ") + ending);
+
+  // each of them is what an earlier run left
+  fs::remove(beside(".aside"));
+  touch(beside(".aside-two"));
+  CHECK_THAT(refusal(folder.path, Earlier::keep),
+             Contains("holds an earlier run (checkpoint_000000000300.h5.aside-2)"));
+  OutputFolder(folder.path, Earlier::overwrite).commit();
+  CHECK(tree(folder.path) ==
+        std::vector<std::string>{"checkpoint_000000000300.h5.aside-two"});
+
+  fs::rename(beside(".aside-two"), beside(".aside-2"));
+  JobOptions options;
+  options.output = options.restart = folder.path;
+  CHECK_THROWS_WITH(folder_to_begin_in(options), Contains("holds a run with checkpoints"));
+}
+
 TEST_CASE("A folder where a run is writing is refused to another until it ends",
           "[unit][apps]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder.path / ".mergel.lock") << "of a run that was killed";
   {
     OutputFolder output(folder.path, Earlier::go_on);

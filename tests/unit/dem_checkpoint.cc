@@ -4,13 +4,13 @@
 #include "dem/io/sample_file.h"
 #include "dem/io/seal.h"
 #include "tests/rock_with_everything.h"
+#include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
 #include <cstring>
 #include <fstream>
 #include <limits>
-#include <unistd.h>
 
 using namespace mergel;
 using namespace mergel::dem;
@@ -18,14 +18,6 @@ using mergel::dem::test::rock_with_everything;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A folder of its own, gone with the test.
-struct Folder {
-  fs::path path =
-      fs::temp_directory_path() / ("mergel_checkpoint_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
 
 void step(Rock& rock)
 {
@@ -89,7 +81,7 @@ void overwrite_byte(const fs::path& file, std::streamoff at, char value)
 
 TEST_CASE("a rock goes on from a checkpoint with the same bits", "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   Rock rock = rock_with_everything();
   for (int k = 0; k < 100; ++k) step(rock);
   const fs::path file = folder.path / checkpoint_name(100);
@@ -121,7 +113,7 @@ TEST_CASE("a rock goes on from a checkpoint with the same bits", "[unit][dem]")
 
 TEST_CASE("what is no checkpoint is refused with the reason", "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path / "c.h5";
   CHECK(refusal(file) == "there is no such file");
   CHECK(refusal(folder.path) == "is not a file");
@@ -142,7 +134,7 @@ TEST_CASE("what is no checkpoint is refused with the reason", "[unit][dem]")
 TEST_CASE("a checkpoint with one changed byte is refused, wherever the byte is",
           "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path / "c.h5";
   write(file);
   std::ifstream in(file, std::ios::binary);
@@ -215,7 +207,7 @@ TEST_CASE("arrays that do not fit each other are refused by name", "[unit][dem]"
 
 TEST_CASE("a state that is not a number is never written", "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path / "c.h5";
   write(file);
   Rock rock = rock_with_everything();
@@ -227,7 +219,7 @@ TEST_CASE("a state that is not a number is never written", "[unit][dem]")
 TEST_CASE("the newest checkpoint that can be read is found, and the newer ones are named",
           "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   CHECK(newest_checkpoint(folder.path / "none").file.empty());
   for (const std::uint64_t step : {900u, 1000u, 20000u})
     write(folder.path / checkpoint_name(step));
@@ -246,7 +238,7 @@ TEST_CASE("the newest checkpoint that can be read is found, and the newer ones a
 TEST_CASE("the checkpoint just written is kept beside later names that were left over",
           "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const std::uint64_t step : {100u, 200u, 300u, 20000u, 30000u})
     std::ofstream(folder.path / checkpoint_name(step)) << "x";
   keep_newest(folder.path / checkpoint_name(300), 2);

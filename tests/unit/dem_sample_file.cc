@@ -1,23 +1,16 @@
 #include "dem/io/sample_file.h"
 
+#include "tests/temporary_folder.h"
+
 #include <catch2/catch.hpp>
 
 #include <fstream>
-#include <unistd.h>
 
 using namespace mergel;
 using namespace mergel::dem;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A folder of its own, gone with the test.
-struct Folder {
-  fs::path path =
-      fs::temp_directory_path() / ("mergel_sample_" + std::to_string(::getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
 
 Sample three_grains()
 {
@@ -62,7 +55,7 @@ void overwrite_byte(const fs::path& file, std::streamoff at, char value)
 
 TEST_CASE("a sample is read back bit for bit", "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Sample s = three_grains();
   write_sample(folder.path / "s.h5", s);
   const Sample r = read_sample(folder.path / "s.h5");
@@ -96,7 +89,7 @@ TEST_CASE("a sample of another recipe is told apart by its first difference", "[
 
 TEST_CASE("what is no sample is refused with the reason", "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path / "s.h5";
   CHECK(refusal(file) == "there is no such file");
   CHECK(refusal(folder.path) == "is not a file");
@@ -113,7 +106,7 @@ TEST_CASE("what is no sample is refused with the reason", "[unit][dem]")
 // HDF5 reads beyond its own memory on some of these files: it must never get them.
 TEST_CASE("a sample with one changed byte is refused, wherever the byte is", "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path / "s.h5";
   write_sample(file, three_grains());
   std::ifstream in(file, std::ios::binary);
@@ -135,7 +128,7 @@ TEST_CASE("a sample with one changed byte is refused, wherever the byte is", "[u
 
 TEST_CASE("another HDF5 file is no sample", "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder.path / "s.h5";
   write_sample(file, three_grains());
   fs::resize_file(file, fs::file_size(file) - 10); // HDF5 still opens it, the seal is gone

@@ -2,6 +2,7 @@
 
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -14,7 +15,6 @@
 #include <stdexcept>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -32,31 +32,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder of its own, removed at the end.
-class Folder {
-public:
-  Folder()
-  {
-    std::string pattern = (fs::temp_directory_path() / "mergel-vtk-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr)
-      throw std::runtime_error("no folder for the test");
-    path_ = pattern;
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path_); }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-  std::vector<std::string> names() const
-  {
-    std::vector<std::string> result;
-    for (const auto& entry : fs::directory_iterator(path_))
-      result.push_back(entry.path().filename().string());
-    return result;
-  }
-
-private:
-  fs::path path_;
-};
+std::vector<std::string> names_in(const fs::path& folder)
+{
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  return names;
+}
 
 /// A disk that is full after so many bytes of a file: write() fails with EFBIG instead of
 /// ENOSPC.
@@ -156,14 +138,14 @@ std::vector<std::array<Index, n>> corners(vtkCellArray* cells)
 
 TEST_CASE("points and their fields come back bit for bit", "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::size_t n = 1000;
   const auto x = positions(n);
   const Field radius{"radius", 1, awkward_numbers(n)};
   const Field velocity{"velocity", 3, awkward_numbers(3 * n)};
-  write_points(folder / "points.vtp", x, {radius, velocity});
+  write_points(folder.path / "points.vtp", x, {radius, velocity});
 
-  const auto data = read(folder / "points.vtp");
+  const auto data = read(folder.path / "points.vtp");
   CHECK(same_bits(data, x));
   CHECK(data->GetNumberOfVerts() == static_cast<vtkIdType>(n));
   CHECK(corners<1>(data->GetVerts()).back()[0] == n - 1);
@@ -174,13 +156,13 @@ TEST_CASE("points and their fields come back bit for bit", "[unit][dem]")
 
 TEST_CASE("lines keep their ends and carry fields per line", "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto x = positions(4);
   const std::vector<std::array<Index, 2>> lines{{0, 3}, {2, 1}};
   const Field damage{"D", 1, {1.0, 1.0 / 3.0}};
-  write_lines(folder / "bonds.vtp", x, lines, {damage});
+  write_lines(folder.path / "bonds.vtp", x, lines, {damage});
 
-  const auto data = read(folder / "bonds.vtp");
+  const auto data = read(folder.path / "bonds.vtp");
   CHECK(same_bits(data, x));
   CHECK(corners<2>(data->GetLines()) == lines);
   CHECK(same_bits(data->GetCellData()->GetArray("D"), damage));
@@ -189,13 +171,13 @@ TEST_CASE("lines keep their ends and carry fields per line", "[unit][dem]")
 
 TEST_CASE("a surface keeps its triangles and fields per point", "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto x = positions(4);
   const std::vector<std::array<Index, 3>> triangles{{0, 1, 2}, {0, 2, 3}};
   const Field force{"force", 3, awkward_numbers(12)};
-  write_surface(folder / "pile.vtp", x, triangles, {force});
+  write_surface(folder.path / "pile.vtp", x, triangles, {force});
 
-  const auto data = read(folder / "pile.vtp");
+  const auto data = read(folder.path / "pile.vtp");
   CHECK(same_bits(data, x));
   CHECK(corners<3>(data->GetPolys()) == triangles);
   CHECK(same_bits(data->GetPointData()->GetArray("force"), force));
@@ -203,9 +185,9 @@ TEST_CASE("a surface keeps its triangles and fields per point", "[unit][dem]")
 
 TEST_CASE("nothing to show is a readable file with the fields' names", "[unit][dem]")
 {
-  const Folder folder;
-  write_lines(folder / "none.vtp", {}, {}, {{"N", 1, {}}});
-  const auto data = read(folder / "none.vtp");
+  const TemporaryFolder folder;
+  write_lines(folder.path / "none.vtp", {}, {}, {{"N", 1, {}}});
+  const auto data = read(folder.path / "none.vtp");
   CHECK(data->GetNumberOfLines() == 0);
   CHECK(data->GetCellData()->HasArray("N") == 1);
 }
@@ -213,27 +195,27 @@ TEST_CASE("nothing to show is a readable file with the fields' names", "[unit][d
 TEST_CASE("sizes, names and indices that do not fit are refused and nothing is written",
           "[unit][dem]")
 {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto x = positions(2);
   const Field one{"S", 1, {1.0, 2.0}};
-  CHECK_THROWS_AS(write_points(folder / "a.vtp", x, {{"S", 3, {1.0, 2.0}}}),
+  CHECK_THROWS_AS(write_points(folder.path / "a.vtp", x, {{"S", 3, {1.0, 2.0}}}),
                   std::logic_error);
-  CHECK_THROWS_AS(write_points(folder / "a.vtp", x, {{"S", 0, {}}}), std::logic_error);
-  CHECK_THROWS_AS(write_points(folder / "a.vtp", x, {one, one}), std::logic_error);
-  CHECK_THROWS_AS(write_lines(folder / "a.vtp", x, {{0, 2}}, {}), std::logic_error);
-  CHECK(folder.names().empty());
+  CHECK_THROWS_AS(write_points(folder.path / "a.vtp", x, {{"S", 0, {}}}), std::logic_error);
+  CHECK_THROWS_AS(write_points(folder.path / "a.vtp", x, {one, one}), std::logic_error);
+  CHECK_THROWS_AS(write_lines(folder.path / "a.vtp", x, {{0, 2}}, {}), std::logic_error);
+  CHECK(names_in(folder.path).empty());
 }
 
 TEST_CASE("a full disk throws, names file and reason, and leaves the earlier file whole",
           "[unit][dem]")
 {
-  const Folder folder;
-  const fs::path file = folder / "points.vtp";
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "points.vtp";
   const auto x = positions(2000);
   write_points(file, positions(10), {});
   const std::string earlier = contents(file);
-  write_points(folder / "later.vtp", x, {});
-  const std::string later = contents(folder / "later.vtp");
+  write_points(folder.path / "later.vtp", x, {});
+  const std::string later = contents(folder.path / "later.vtp");
 
   // Full at once, in the middle, and where only the last byte is missing.
   for (const std::size_t room : {std::size_t{0}, later.size() / 2, later.size() - 1}) {
@@ -250,7 +232,7 @@ TEST_CASE("a full disk throws, names file and reason, and leaves the earlier fil
     CHECK_THAT(message,
                Catch::Contains(file.string()) && Catch::Contains("File too large"));
     CHECK(contents(file) == earlier);
-    CHECK(folder.names().size() == 2);
+    CHECK(names_in(folder.path).size() == 2);
   }
 
   write_points(file, x, {});
@@ -259,16 +241,16 @@ TEST_CASE("a full disk throws, names file and reason, and leaves the earlier fil
 
 TEST_CASE("a missing folder is named with the system's reason", "[unit][dem]")
 {
-  const Folder folder;
-  CHECK_THROWS_WITH(write_points(folder / "no/points.vtp", positions(1), {}),
-                    Catch::Contains((folder / "no/points.vtp").string()) &&
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(write_points(folder.path / "no/points.vtp", positions(1), {}),
+                    Catch::Contains((folder.path / "no/points.vtp").string()) &&
                         Catch::Contains("No such file or directory"));
 }
 
 TEST_CASE("a replaced file is the old one until its writer has returned", "[unit][dem]")
 {
-  const Folder folder;
-  const fs::path file = folder / "walls.vtp";
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "walls.vtp";
   replace_file(file, "old");
   const auto half_and_fail = [&](const fs::path& temporary) {
     CHECK(temporary.extension() == ".vtp");
@@ -279,7 +261,7 @@ TEST_CASE("a replaced file is the old one until its writer has returned", "[unit
   };
   CHECK_THROWS_AS(replace_file(file, half_and_fail), std::domain_error);
   CHECK(contents(file) == "old");
-  CHECK(folder.names().size() == 1);
+  CHECK(names_in(folder.path).size() == 1);
 
   CHECK_THROWS_AS(replace_file(file, [](const fs::path&) {}), NumericalError);
   CHECK(contents(file) == "old");
@@ -290,13 +272,13 @@ TEST_CASE("a replaced file is the old one until its writer has returned", "[unit
 
 TEST_CASE("a series lists paths relative to itself and exact times", "[unit][dem]")
 {
-  const Folder folder;
-  Series series(folder / "particles.pvd");
-  CHECK(folder.names().empty());
-  series.add(0.0, folder / "fields/particles_0000.vtp");
-  series.add(0.1 + 0.2, folder / "fields/a \"b\" & <c>.vtp");
+  const TemporaryFolder folder;
+  Series series(folder.path / "particles.pvd");
+  CHECK(names_in(folder.path).empty());
+  series.add(0.0, folder.path / "fields/particles_0000.vtp");
+  series.add(0.1 + 0.2, folder.path / "fields/a \"b\" & <c>.vtp");
 
-  const auto entries = read_series(folder / "particles.pvd");
+  const auto entries = read_series(folder.path / "particles.pvd");
   REQUIRE(entries.size() == 2);
   CHECK(entries[0].time == 0.0);
   CHECK(entries[0].file == "fields/particles_0000.vtp");
@@ -305,9 +287,9 @@ TEST_CASE("a series lists paths relative to itself and exact times", "[unit][dem
 
   SECTION("and is continued after a restart")
   {
-    Series continued(folder / "particles.pvd", {entries[0]});
-    continued.add(0.4, folder / "fields/particles_0001.vtp");
-    const auto all = read_series(folder / "particles.pvd");
+    Series continued(folder.path / "particles.pvd", {entries[0]});
+    continued.add(0.4, folder.path / "fields/particles_0001.vtp");
+    const auto all = read_series(folder.path / "particles.pvd");
     REQUIRE(all.size() == 2);
     CHECK(all[0].file == entries[0].file);
     CHECK(all[1].time == 0.4);
@@ -315,7 +297,7 @@ TEST_CASE("a series lists paths relative to itself and exact times", "[unit][dem
   SECTION("and does not depend on how its own path is written")
   {
     const fs::path here = fs::current_path();
-    fs::current_path((folder / "particles.pvd").parent_path());
+    fs::current_path((folder.path / "particles.pvd").parent_path());
     Series bare("bare.pvd");
     bare.add(1.0, "./fields/../fields/x.vtp");
     const auto listed = read_series("bare.pvd");
@@ -324,21 +306,22 @@ TEST_CASE("a series lists paths relative to itself and exact times", "[unit][dem
   }
   SECTION("and stays whole when the disk is full")
   {
-    const std::string earlier = contents(folder / "particles.pvd");
+    const std::string earlier = contents(folder.path / "particles.pvd");
     {
       const FullDisk full(100);
-      CHECK_THROWS_AS(series.add(0.5, folder / "fields/x.vtp"), NumericalError);
+      CHECK_THROWS_AS(series.add(0.5, folder.path / "fields/x.vtp"), NumericalError);
     }
-    CHECK(contents(folder / "particles.pvd") == earlier);
+    CHECK(contents(folder.path / "particles.pvd") == earlier);
     CHECK(series.entries().size() == 2);
   }
 }
 
 TEST_CASE("what is no series is refused by name", "[unit][dem]")
 {
-  const Folder folder;
-  replace_file(folder / "a.pvd", "<?xml version=\"1.0\"?>\n<VTKFile><Piece/></VTKFile>\n");
-  CHECK_THROWS_AS(read_series(folder / "a.pvd"), InputError);
-  CHECK_THROWS_WITH(read_series(folder / "b.pvd"),
-                    Catch::Contains((folder / "b.pvd").string()));
+  const TemporaryFolder folder;
+  replace_file(folder.path / "a.pvd",
+               "<?xml version=\"1.0\"?>\n<VTKFile><Piece/></VTKFile>\n");
+  CHECK_THROWS_AS(read_series(folder.path / "a.pvd"), InputError);
+  CHECK_THROWS_WITH(read_series(folder.path / "b.pvd"),
+                    Catch::Contains((folder.path / "b.pvd").string()));
 }

@@ -1,0 +1,146 @@
+#include "apps/case_keys.h"
+
+#include "apps/words.h"
+#include "dem/error.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace mergel::apps {
+
+std::vector<CaseKey*> CaseFile::Impl::find_all(const std::string& section,
+                                               const std::string& name)
+{
+  std::vector<CaseKey*> found;
+  for (CaseKey& k : keys)
+    if (k.section == section && k.name == name) found.push_back(&k);
+  return found;
+}
+
+CaseKey* CaseFile::Impl::find(const std::string& section, const std::string& name)
+{
+  const auto found = find_all(section, name);
+  for (CaseKey* k : found)
+    if (k->is_active) return k;
+  return found.empty() ? nullptr : found.front();
+}
+
+const CaseKey& CaseFile::Impl::at(const std::string& section, const std::string& name)
+{
+  if (!is_read) throw std::logic_error("CaseFile: no case has been read");
+  if (const CaseKey* key = find(section, name)) return *key;
+  throw std::logic_error("CaseFile: no key " + section + "/" + name);
+}
+
+void CaseFile::Impl::add(CaseKey key)
+{
+  if (open_section.empty())
+    throw std::logic_error("CaseFile: " + key.name + " is declared outside a section");
+  key.section = open_section;
+  key.choice = open_choice;
+  key.values = open_values;
+  for (const CaseKey* other : find_all(key.section, key.name))
+    if (other->choice.empty() || other->choice != key.choice ||
+        std::find_first_of(other->values.begin(), other->values.end(), key.values.begin(),
+                           key.values.end()) != other->values.end())
+      throw std::logic_error("CaseFile: " + key.section + "/" + key.name +
+                             " is declared twice");
+  keys.push_back(std::move(key));
+}
+
+bool CaseFile::Impl::exists(const CaseKey& key)
+{
+  if (key.choice.empty()) return true;
+  const CaseKey& choice = *find(key.section, key.choice);
+  return choice.is_active && std::find(key.values.begin(), key.values.end(),
+                                       choice.resolved) != key.values.end();
+}
+
+void CaseFile::Impl::refuse_inactive(const CaseKey& key)
+{
+  std::vector<std::string> values;
+  for (const CaseKey* k : find_all(key.section, key.name))
+    values.insert(values.end(), k->values.begin(), k->values.end());
+  const CaseKey& choice = *find(key.section, key.choice);
+  throw InputError(place(key) + " = " + key.value + ": is a key of `" + key.choice +
+                   "` = " + joined(values, " | ") + "; here it is " + choice.resolved +
+                   ". Leave the key out, or change `" + key.choice + "`.");
+}
+
+std::string CaseFile::Impl::place(const CaseKey& key) const
+{
+  const std::string full = key.section + "/" + key.name;
+  if (key.is_override) return "--set " + full;
+  if (key.line > 0) return file_name + ":" + std::to_string(key.line) + ": " + full;
+  return file_name + ": " + full;
+}
+
+std::vector<std::string> CaseFile::Impl::names_in(const std::string& section) const
+{
+  std::vector<std::string> names;
+  for (const CaseKey& key : keys)
+    if (key.section == section &&
+        std::find(names.begin(), names.end(), key.name) == names.end())
+      names.push_back(key.name);
+  return names;
+}
+
+void CaseFile::Impl::refuse_section(const std::string& place,
+                                    const std::string& section) const
+{
+  const std::string meant = nearest(section, sections);
+  throw InputError(place + "unknown section \"" + section + "\". " +
+                   (meant.empty() ? "There are " + joined(sections, ", ")
+                                  : "Did you mean \"" + meant + "\"?") +
+                   (meant.empty() ? "." : ""));
+}
+
+void CaseFile::Impl::refuse_key(const std::string& place, const CaseEntry& entry) const
+{
+  std::string help;
+  for (const CaseKey& key : keys)
+    if (key.name == entry.key) help = "It belongs to section \"" + key.section + "\".";
+  if (const auto meant = nearest(entry.key, names_in(entry.section));
+      help.empty() && !meant.empty())
+    help = "Did you mean \"" + meant + "\"?";
+  if (help.empty()) help = "Its keys are " + joined(names_in(entry.section), ", ") + ".";
+  throw InputError(place + " = " + entry.value + ": unknown key in section \"" +
+                   entry.section + "\". " + help);
+}
+
+void CaseFile::Impl::match_file(const CaseScan& scan)
+{
+  std::vector<std::pair<int, std::string>> by_line;
+  for (const auto& [section, line] : scan.sections) by_line.emplace_back(line, section);
+  std::sort(by_line.begin(), by_line.end());
+  for (const auto& [line, section] : by_line)
+    if (std::find(sections.begin(), sections.end(), section) == sections.end())
+      refuse_section(file_name + ":" + std::to_string(line) + ": ", section);
+
+  for (const CaseEntry& entry : scan.entries) {
+    CaseKey* key = find(entry.section, entry.key);
+    if (!key)
+      refuse_key(file_name + ":" + std::to_string(entry.line) + ": " + entry.section + "/" +
+                     entry.key,
+                 entry);
+    for (CaseKey* same : find_all(entry.section, entry.key)) same->line = entry.line;
+  }
+}
+
+void CaseFile::Impl::match_override(const CaseEntry& entry)
+{
+  const std::string place = "--set " + entry.section + "/" + entry.key;
+  if (std::find(sections.begin(), sections.end(), entry.section) == sections.end())
+    refuse_section(place + " = " + entry.value + ": ", entry.section);
+  CaseKey* key = find(entry.section, entry.key);
+  if (!key) refuse_key(place, entry);
+  if (key->is_override)
+    throw InputError(place + " = " + entry.value + ": already given by another --set (" +
+                     key->value + "). Keep one of the two.");
+  for (CaseKey* same : find_all(entry.section, entry.key)) {
+    same->is_override = true;
+    same->value = entry.value;
+  }
+}
+
+} // namespace mergel::apps

@@ -1,0 +1,84 @@
+/// The keys of a CaseFile as they are kept: declared, found by name, placed in the file that
+/// was read. For the sources of CaseFile alone.
+#pragma once
+
+#include "apps/case_file.h"
+#include "apps/case_scan.h"
+
+#include <map>
+
+namespace mergel::apps {
+
+/// One key: how it reads, and what it does with a text.
+struct CaseKey {
+  std::string name = {}, unit = {}, allowed = {}, sentence = {};
+  std::string standard = {};   ///< text of the default, which parse() takes back exactly
+  bool is_required = false;    ///< no default
+  std::string write_hint = {}; ///< what to write, for a missing key
+
+  /// Set the variable; returns the text that sets it to the same bits anywhere.
+  /// @param base folder where relative paths start
+  /// @throws InputError without place and value, when the text cannot be used
+  std::function<std::string(const std::string& text, const std::filesystem::path& base)>
+      parse = {};
+
+  std::string section = {};
+  std::string choice = {};              ///< the key exists only where this other key of its
+  std::vector<std::string> values = {}; ///< section has one of these values; "" for always
+  bool is_active = true;                ///< whether it does, in the case as read
+  std::string value = {}, resolved = {}; ///< as given, and for write_resolved()
+  int line = 0;                          ///< in the case file; 0 if not there
+  bool is_override = false;              ///< from --set
+};
+
+/// What a CaseFile holds.
+struct CaseFile::Impl {
+  std::vector<std::string> sections; ///< in the order of declaration
+  std::vector<CaseKey> keys;
+  std::string open_section;
+  std::string open_choice;              ///< of the open condition
+  std::vector<std::string> open_values; ///< of the open condition
+  bool is_read = false;
+  std::string file_name;
+  std::map<std::string, int> section_lines;
+
+  /// Every key of this name: more than one where conditions exclude each other.
+  std::vector<CaseKey*> find_all(const std::string& section, const std::string& name);
+
+  /// The one that exists in the case as read, else the first; null if there is none.
+  CaseKey* find(const std::string& section, const std::string& name);
+
+  /// The same, of a case that was read. @throws std::logic_error when there is none
+  const CaseKey& at(const std::string& section, const std::string& name);
+
+  /// Declare a key in the open section, under the open condition.
+  /// @throws std::logic_error when it is declared twice, or outside a section
+  void add(CaseKey key);
+
+  /// Whether the key exists, its choice being read already.
+  bool exists(const CaseKey& key);
+
+  /// A key was given that does not exist in this case: say where it would.
+  [[noreturn]] void refuse_inactive(const CaseKey& key);
+
+  /// Where the value of a key comes from, as CaseFile::where() says it.
+  std::string place(const CaseKey& key) const;
+
+  /// Names of a section's keys, in the order of declaration.
+  std::vector<std::string> names_in(const std::string& section) const;
+
+  /// Say that a section is not known, with the likeliest meant. @param place "pile.prm:14: "
+  [[noreturn]] void refuse_section(const std::string& place,
+                                   const std::string& section) const;
+
+  /// The same of a key. @param place "pile.prm:14: Pile/diametre"
+  [[noreturn]] void refuse_key(const std::string& place, const CaseEntry& entry) const;
+
+  /// Refuse what the file has and we do not know; note the lines of the rest.
+  void match_file(const CaseScan& scan);
+
+  /// The same for one --set.
+  void match_override(const CaseEntry& entry);
+};
+
+} // namespace mergel::apps

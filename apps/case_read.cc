@@ -1,0 +1,125 @@
+/// Reading a case: the values of its keys, and where each comes from.
+#include "apps/case_keys.h"
+#include "apps/words.h"
+#include "dem/error.h"
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
+
+#include <sstream>
+
+namespace mergel::apps {
+
+void CaseFile::read(const std::filesystem::path& path,
+                    const std::vector<std::string>& overrides)
+{
+  read(read_case_text(path), path.string(), std::filesystem::absolute(path).parent_path(),
+       overrides);
+}
+
+void CaseFile::read_text(const std::string& text, const std::string& name,
+                         const std::vector<std::string>& overrides)
+{
+  read(text, name, std::filesystem::current_path(), overrides);
+}
+
+void CaseFile::read(const std::string& text, const std::string& name,
+                    const std::filesystem::path& case_folder,
+                    const std::vector<std::string>& overrides)
+{
+  impl_->is_read = false;
+  impl_->file_name = name;
+  for (CaseKey& key : impl_->keys) {
+    key.line = 0;
+    key.is_override = false;
+    key.is_active = true;
+  }
+
+  const CaseScan scan = scan_case(text, impl_->file_name);
+  impl_->section_lines = scan.sections;
+  impl_->match_file(scan);
+
+  // From here on the file is deal.II's to read. Its patterns stay open: the parsers of the
+  // keys know more about units and ranges, and say it in one line.
+  dealii::ParameterHandler prm;
+  for (const CaseKey& key : impl_->keys) {
+    if (&key != impl_->find_all(key.section, key.name).front()) continue;
+    prm.enter_subsection(key.section);
+    prm.declare_entry(key.name, key.standard, dealii::Patterns::Anything(), key.sentence);
+    prm.leave_subsection();
+  }
+  try {
+    std::istringstream stream(text);
+    prm.parse_input(stream, impl_->file_name);
+  } catch (const dealii::ExceptionBase& error) {
+    const std::string text = in_one_line(error.what());
+    const std::string banner = "Additional information: ";
+    const auto start = text.find(banner);
+    throw InputError(impl_->file_name + ": " +
+                     text.substr(start == std::string::npos ? 0 : start + banner.size()));
+  }
+  for (CaseKey& key : impl_->keys) {
+    prm.enter_subsection(key.section);
+    key.value = key.line > 0 ? std::string(trimmed(prm.get(key.name))) : key.standard;
+    prm.leave_subsection();
+  }
+
+  for (const std::string& argument : overrides)
+    impl_->match_override(scan_override(argument));
+
+  const auto working_folder = std::filesystem::current_path();
+  for (CaseKey& key : impl_->keys) {
+    const bool is_given = key.is_override || key.line > 0;
+    key.is_active = impl_->exists(key);
+    if (!key.is_active) continue;
+    if (key.is_required && !is_given) {
+      const auto line = impl_->section_lines.find(key.section);
+      throw InputError(
+          impl_->file_name +
+          (line == impl_->section_lines.end() ? std::string(": ")
+                                              : ":" + std::to_string(line->second) + ": ") +
+          key.section + "/" + key.name + ": must be given, it has no default. " +
+          "Write \"set " + key.name + " = ...\", " + key.write_hint + ".");
+    }
+    try {
+      key.resolved = key.parse(
+          key.value, key.line > 0 && !key.is_override ? case_folder : working_folder);
+    } catch (const InputError& error) {
+      std::string message = error.what();
+      if (!message.ends_with('.') && !message.ends_with('?')) message += ".";
+      throw InputError(impl_->place(key) + " = " + key.value + ": " + message);
+    }
+  }
+  for (const CaseKey& key : impl_->keys)
+    if ((key.is_override || key.line > 0) && !impl_->find(key.section, key.name)->is_active)
+      impl_->refuse_inactive(key);
+  impl_->is_read = true;
+}
+
+std::string CaseFile::where(const std::string& section, const std::string& key) const
+{
+  return impl_->place(impl_->at(section, key));
+}
+
+void CaseFile::refuse(const std::string& section, const std::string& key,
+                      const std::string& message) const
+{
+  const CaseKey& k = impl_->at(section, key);
+  throw InputError(impl_->place(k) + " = " + k.value + ": " + message);
+}
+
+void CaseFile::resolve(const std::string& section, const std::string& key,
+                       const std::string& value)
+{
+  impl_->at(section, key); // it is there, and a case was read
+  impl_->find(section, key)->resolved = value;
+}
+
+bool CaseFile::is_given(const std::string& section, const std::string& key) const
+{
+  const CaseKey& k = impl_->at(section, key);
+  return k.is_active && (k.is_override || k.line > 0);
+}
+
+} // namespace mergel::apps

@@ -1,0 +1,106 @@
+/// A case as text: complete with its defaults, compared with an earlier one, and the help on
+/// its keys.
+#include "apps/case_keys.h"
+#include "apps/words.h"
+#include "dem/io/atomic_file.h"
+
+#include <algorithm>
+#include <ostream>
+#include <stdexcept>
+
+namespace mergel::apps {
+
+namespace {
+
+constexpr std::size_t columns = 92;
+
+} // namespace
+
+void CaseFile::write_resolved(const std::filesystem::path& path) const
+{
+  dem::replace_file(path, resolved_text());
+}
+
+std::string CaseFile::resolved_text() const
+{
+  if (!impl_->is_read) throw std::logic_error("CaseFile: no case has been read");
+  std::string text =
+      "# The complete case of a run, defaults included. mergel reads it back to "
+      "the same bits.\n";
+  for (const std::string& section : impl_->sections) {
+    text += "\nsubsection " + section + "\n";
+    for (const CaseKey& key : impl_->keys)
+      if (key.section == section && key.is_active)
+        text += wrapped(key.sentence + " [" + key.allowed + "]", "  # ", columns) +
+                "  set " + key.name + (key.resolved.empty() ? " =" : " = ") + key.resolved +
+                "\n";
+    text += "end\n";
+  }
+  return text;
+}
+
+std::vector<CaseFile::Change>
+CaseFile::changes_since(const std::string& earlier_resolved_text) const
+{
+  if (!impl_->is_read) throw std::logic_error("CaseFile: no case has been read");
+  std::vector<CaseEntry> earlier = scan_case(earlier_resolved_text, "earlier case").entries;
+  std::vector<Change> changes;
+  for (const CaseKey& key : impl_->keys) {
+    if (!key.is_active) continue;
+    const auto same = std::find_if(earlier.begin(), earlier.end(), [&](const auto& e) {
+      return e.section == key.section && e.key == key.name;
+    });
+    const std::string was = same == earlier.end() ? "" : same->value;
+    if (was != key.resolved || same == earlier.end())
+      changes.push_back({key.section, key.name, was, key.resolved});
+    if (same != earlier.end()) earlier.erase(same);
+  }
+  for (const CaseEntry& e : earlier) changes.push_back({e.section, e.key, e.value, ""});
+  return changes;
+}
+
+void CaseFile::help(std::ostream& out) const
+{
+  std::size_t name_width = 3, unit_width = 4, default_width = 8;
+  for (const CaseKey& key : impl_->keys) {
+    name_width = std::max(name_width, key.name.size());
+    unit_width = std::max(unit_width, key.unit.size());
+    if (key.standard.size() <= 14)
+      default_width = std::max(default_width, key.standard.size());
+  }
+  const auto row = [&](const std::string& name, const std::string& unit,
+                       const std::string& standard, const std::string& allowed) {
+    const auto padded = [](std::string text, std::size_t width) {
+      text.resize(std::max(width, text.size()), ' ');
+      return text + "  ";
+    };
+    const std::string start =
+        padded("  " + name, name_width + 2) + padded(unit, unit_width);
+    const std::string whole = start + padded(standard, default_width) + allowed;
+    if (whole.size() <= columns) {
+      out << whole << "\n";
+      return;
+    }
+    // too long for one line: the default, then what is allowed, each under its column
+    const std::string indent(start.size(), ' ');
+    out << start << standard << "\n" << wrapped(allowed, indent, columns);
+  };
+
+  row("key", "unit", "default", "allowed");
+  for (const std::string& section : impl_->sections) {
+    out << "\n" << section << "\n";
+    for (const CaseKey& key : impl_->keys) {
+      if (key.section != section) continue;
+      row(key.name, key.unit,
+          key.is_required ? "required" : (key.standard.empty() ? "none" : key.standard),
+          key.allowed);
+      const std::string condition =
+          key.choice.empty()
+              ? ""
+              : "Where " + key.choice + " = " + joined(key.values, " | ") + ": ";
+      out << wrapped(condition + key.sentence, "      ", columns);
+    }
+  }
+}
+
+} // namespace mergel::apps

@@ -1,0 +1,32 @@
+/// The velocity at which a pile is pushed.
+#pragma once
+
+#include "apps/pile_case.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mergel::apps {
+
+/// Velocity that starts and ends with a ramp of constant acceleration over 0.05 D.
+class Jack {
+public:
+  explicit Jack(const PileCase& c)
+      : v_(c.velocity), ramp_(0.05 * c.diameter), travel_(c.travel())
+  {
+  }
+  /// Downwards, with the tip at this depth [m/s].
+  double velocity(double travelled) const
+  {
+    // v^2 = 2 a s; a floor of 1 % lets the first step begin and the last one end.
+    const double s = std::min(travelled, travel_ - travelled);
+    return v_ * std::clamp(std::sqrt(std::max(0.0, s) / ramp_), 0.01, 1.0);
+  }
+  double travel() const { return travel_; }                ///< of the tip, in all [m]
+  double slows_down_at() const { return travel_ - ramp_; } ///< depth of the tip [m]
+
+private:
+  double v_, ramp_, travel_;
+};
+
+} // namespace mergel::apps

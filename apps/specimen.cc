@@ -1,0 +1,140 @@
+#include "apps/specimen.h"
+
+#include "apps/progress.h"
+#include "apps/ranks.h"
+#include "dem/io/history.h"
+
+#include <sstream>
+
+namespace mergel::apps {
+
+namespace {
+
+dem::Sample read_or_make(const CaseFile& file, const SpecimenKeys& k)
+{
+  if (!k.sample.empty()) {
+    dem::Sample sample;
+    on_every_rank([&] {
+      try {
+        sample = dem::read_sample(k.sample);
+      } catch (const InputError& e) {
+        file.refuse("Specimen", "file", e.what());
+      }
+      const std::string differs = dem::difference(sample, recipe(k));
+      if (!differs.empty())
+        file.refuse("Specimen", "file",
+                    differs +
+                        "; make a new sample, or clear the key to make it for this run");
+    });
+    return sample;
+  }
+
+  Progress progress("specimen");
+  dem::Sample sample;
+  try {
+    sample.packing = dem::pack(
+        k.specimen, [&](double fraction) { progress.update(fraction); }, MPI_COMM_WORLD);
+  } catch (const InputError& e) {
+    file.refuse("Specimen", "porosity", e.what());
+  }
+  sample.bonding =
+      dem::choose_bonds(k.specimen, sample.packing.particles, sample.packing.cell);
+  sample.recipe = recipe(k);
+  progress.done(std::to_string(sample.packing.particles.size()) + " grains");
+  return sample;
+}
+
+double coordination(const dem::Sample& sample)
+{
+  return 2.0 * static_cast<double>(sample.bonding.pairs.size()) /
+         static_cast<double>(sample.packing.particles.size());
+}
+
+} // namespace
+
+dem::Sample obtain_sample(const CaseFile& file, const SpecimenKeys& k)
+{
+  dem::Sample sample = read_or_make(file, k);
+  dem::draw_strengths(k.strengths, sample.packing.particles);
+  return sample;
+}
+
+std::string report(const SpecimenKeys& k, const dem::Sample& sample)
+{
+  const dem::SpecimenSpec& s = k.specimen;
+  const dem::Packing& p = sample.packing;
+  const dem::GrainRange range = dem::describe_grains(p.particles);
+  const dem::SizeReport sizes = dem::describe_sizes(s.sizes, p.particles);
+  const double Z = coordination(sample);
+  std::ostringstream out;
+  out.precision(4);
+  out << "specimen: " << p.particles.size() << " grains of " << 1e3 * range.d_min << " to "
+      << 1e3 * range.d_max << " mm, S " << range.S_min << " to " << range.S_max
+      << "; porosity " << p.porosity << " in the core (wanted " << s.porosity << "), "
+      << p.whole_porosity << " in all; pressure " << 1e-3 * p.pressure << " kPa";
+  if (s.compaction == dem::Compaction::confined)
+    out << " (wanted " << 1e-3 * s.pressure << "), friction while packed " << p.friction;
+  out << "; " << sample.bonding.pairs.size() << " bonds, Z = 2 N_bonds/N = " << Z
+      << " (wanted " << s.coordination << "), N_bonds/N = " << 0.5 * Z << ", bonded up to "
+      << sample.bonding.limit / s.sizes.smallest() << " d00 S; largest overlap "
+      << p.overlap << "\ngrain sizes at S = 1 by mass, made (wanted): d10 "
+      << 1e3 * sizes.d_10 << " (" << 1e3 * s.sizes.sieve(0.1) << ") mm, d50 "
+      << 1e3 * sizes.d_50 << " (" << 1e3 * s.sizes.sieve(0.5) << ") mm, d90 "
+      << 1e3 * sizes.d_90 << " (" << 1e3 * s.sizes.sieve(0.9)
+      << ") mm; the curves differ by " << sizes.distance_by_mass << " at most";
+  if (p.cell.is_periodic())
+    out << "\nperiodic box as made: " << 1e3 * p.cell.size.x() << " x "
+        << 1e3 * p.cell.size.y() << " x " << 1e3 * p.cell.size.z() << " mm";
+  return out.str() + report(k.strengths, p.particles);
+}
+
+std::string summary(const SpecimenKeys& k, const dem::Sample& sample)
+{
+  const dem::SpecimenSpec& s = k.specimen;
+  const dem::Packing& p = sample.packing;
+  const dem::GrainRange range = dem::describe_grains(p.particles);
+  const dem::SizeReport sizes = dem::describe_sizes(s.sizes, p.particles);
+  std::vector<std::pair<const char*, double>> numbers{
+      {"particles [-]", static_cast<double>(p.particles.size())},
+      {"porosity [-]", p.porosity},
+      {"porosity wanted [-]", s.porosity},
+      {"porosity of the whole region [-]", p.whole_porosity},
+      {"pressure [Pa]", p.pressure},
+      {"friction while packed [-]", p.friction},
+      {"bonds [-]", static_cast<double>(sample.bonding.pairs.size())},
+      {"coordination Z = 2 N_bonds/N [-]", coordination(sample)},
+      {"coordination wanted [-]", s.coordination},
+      {"N_bonds/N [-]", 0.5 * coordination(sample)},
+      {"largest bonded gap over S [m]", sample.bonding.limit},
+      {"largest overlap over distance [-]", p.overlap},
+      {"smallest S [-]", range.S_min},
+      {"largest S [-]", range.S_max},
+      {"smallest diameter [m]", range.d_min},
+      {"largest diameter [m]", range.d_max},
+      {"d10 at S = 1 [m]", sizes.d_10},
+      {"d10 wanted [m]", s.sizes.sieve(0.1)},
+      {"d50 at S = 1 [m]", sizes.d_50},
+      {"d50 wanted [m]", s.sizes.sieve(0.5)},
+      {"d90 at S = 1 [m]", sizes.d_90},
+      {"d90 wanted [m]", s.sizes.sieve(0.9)},
+      {"largest difference of the size curves by mass [-]", sizes.distance_by_mass},
+      {"largest difference of the size curves by number [-]", sizes.distance_by_number},
+      {"periodic edge x [m]", p.cell.size.x()},
+      {"periodic edge y [m]", p.cell.size.y()},
+      {"periodic edge z [m]", p.cell.size.z()}};
+  if (k.strengths.is_on()) {
+    const dem::StrengthSpread drawn = dem::describe_strengths(p.particles);
+    numbers.insert(numbers.end(), {{"mean strength factor of the grains [-]", drawn.mean},
+                                   {"coefficient of variation of the strength factors [-]",
+                                    drawn.variation},
+                                   {"smallest strength factor [-]", drawn.least},
+                                   {"largest strength factor [-]", drawn.greatest}});
+  }
+  std::string text;
+  for (const auto& [name, value] : numbers)
+    text += (text.empty() ? "{\n  \"" : ",\n  \"") + std::string(name) +
+            "\": " + dem::shortest(value);
+  return text + "\n}\n";
+}
+
+} // namespace mergel::apps

@@ -1,0 +1,19 @@
+/// The specimen of a case: read from a file or made, and what is said of it.
+#pragma once
+
+#include "apps/specimen_keys.h"
+
+namespace mergel::apps {
+
+/// Read the sample that the case names and compare its recipe, or make one, and draw the
+/// strengths of its grains; collective. Nothing is written.
+/// @throws InputError naming file, line and key
+dem::Sample obtain_sample(const CaseFile& file, const SpecimenKeys& k);
+
+/// One paragraph on what was reached.
+std::string report(const SpecimenKeys& k, const dem::Sample& sample);
+
+/// The same as one line of JSON a number.
+std::string summary(const SpecimenKeys& k, const dem::Sample& sample);
+
+} // namespace mergel::apps

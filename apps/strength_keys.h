@@ -1,0 +1,15 @@
+/// Section `Strength variability` of a case: how strengths vary from grain to grain.
+#pragma once
+
+#include "apps/case_file.h"
+#include "dem/strength.h"
+
+namespace mergel::apps {
+
+/// Declare the section and its keys.
+void declare(CaseFile& file, dem::StrengthVariability& v);
+
+/// "" without variability, else a line of its own on the strengths drawn.
+std::string report(const dem::StrengthVariability& v, const dem::Particles& p);
+
+} // namespace mergel::apps

@@ -1,0 +1,293 @@
+/// Which grains meet a wall, and where: candidates, touches, new bonds.
+#include "dem/walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace mergel::dem {
+
+namespace {
+
+/// Closest point of a triangle and the feature that holds it.
+struct Closest {
+  enum class On { face, edge, corner } on;
+  int which;   ///< edge (k, k+1) or corner k
+  Vec3 weight; ///< barycentric
+  Vec3 point;
+};
+
+/// Source: the Voronoi regions of a triangle, Ericson (2005), Real-Time Collision
+/// Detection, section 5.1.5.
+Closest closest_on_triangle(const Vec3& c, const Vec3& a, const Vec3& b, const Vec3& d)
+{
+  using On = Closest::On;
+  const Vec3 ab = b - a, ad = d - a;
+  const Vec3 ac = c - a, bc = c - b, dc = c - d;
+  const double d1 = ab.dot(ac), d2 = ad.dot(ac);
+  if (d1 <= 0.0 && d2 <= 0.0) return {On::corner, 0, {1, 0, 0}, a};
+  const double d3 = ab.dot(bc), d4 = ad.dot(bc);
+  if (d3 >= 0.0 && d4 <= d3) return {On::corner, 1, {0, 1, 0}, b};
+  const double d5 = ab.dot(dc), d6 = ad.dot(dc);
+  if (d6 >= 0.0 && d5 <= d6) return {On::corner, 2, {0, 0, 1}, d};
+
+  const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vd = d1 * d4 - d3 * d2;
+  if (vd <= 0.0 && d1 >= 0.0 && d3 <= 0.0) { // d1 - d3 = |ab|^2 > 0
+    const double s = d1 / (d1 - d3);
+    return {On::edge, 0, {1 - s, s, 0}, a + s * ab};
+  }
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) { // d2 - d6 = |ad|^2 > 0
+    const double s = d2 / (d2 - d6);
+    return {On::edge, 2, {1 - s, 0, s}, a + s * ad};
+  }
+  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) { // the sum is |bd|^2 > 0
+    const double s = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    return {On::edge, 1, {0, 1 - s, s}, b + s * (d - b)};
+  }
+  const double inv =
+      1.0 / (va + vb + vd); // twice the area squared, not 0 for a proper triangle
+  const double wb = vb * inv, wd = vd * inv;
+  return {On::face, 0, {1 - wb - wd, wb, wd}, a + wb * ab + wd * ad};
+}
+
+Closest closest_on(const Wall& wall, int t, const Vec3& c)
+{
+  const Triangle& k = wall.topology.triangles[uz(t)];
+  return closest_on_triangle(c, wall.x[uz(k[0])], wall.x[uz(k[1])], wall.x[uz(k[2])]);
+}
+
+/// Does the Voronoi region of the feature hold c on every triangle that shares it? One of
+/// the triangles, the first, reports a shared feature.
+bool is_reported(const Wall& wall, int t, const Closest& at, const Vec3& c)
+{
+  const WallTopology& topo = wall.topology;
+  if (at.on == Closest::On::face) return true;
+  const Triangle& tri = topo.triangles[uz(t)];
+  if (at.on == Closest::On::edge) {
+    const int other = topo.across[uz(t)][uz(at.which)];
+    if (other < 0) return true;
+    if (other < t) return false;
+    const Vec3 e = wall.x[uz(tri[uz((at.which + 1) % 3)])] - wall.x[uz(tri[uz(at.which)])];
+    // In the other triangle the edge runs backwards: its interior is along e x normal.
+    return (c - at.point).dot(e.cross(wall.normals[uz(other)])) <= 0.0;
+  }
+  const int node = tri[uz(at.which)];
+  for (const int other : topo.around[uz(node)]) {
+    if (topo.patch[uz(other)] != topo.patch[uz(t)]) continue;
+    if (other < t) return false;
+    for (const int m : topo.triangles[uz(other)])
+      if (m != node && (c - at.point).dot(wall.x[uz(m)] - wall.x[uz(node)]) > 0.0)
+        return false;
+  }
+  return true;
+}
+
+Vec3 closest_point_of_wall(const Wall& wall, const std::vector<int>& triangles,
+                           const Vec3& c, Anchor& anchor)
+{
+  double best = std::numeric_limits<double>::infinity();
+  Vec3 point = Vec3::Zero();
+  for (const int t : triangles) {
+    const Closest at = closest_on(wall, t, c);
+    const double d2 = (c - at.point).squaredNorm();
+    if (d2 >= best) continue;
+    best = d2;
+    point = at.point;
+    anchor = {t, at.weight};
+  }
+  return point;
+}
+
+/// How much nearer the face is than the valleys that bound it [m]; infinite without one. A
+/// second face enters a valley with this share, so that the force does not jump.
+double lead_over_valleys(const Wall& wall, int t, const Vec3& c, double distance)
+{
+  const WallTopology& topo = wall.topology;
+  const Triangle& tri = topo.triangles[uz(t)];
+  double lead = std::numeric_limits<double>::infinity();
+  for (int e = 0; e < 3; ++e) {
+    const int other = topo.across[uz(t)][uz(e)];
+    if (other < 0) continue;
+    const Vec3 &a = wall.x[uz(tri[uz(e)])], &b = wall.x[uz(tri[uz((e + 1) % 3)])];
+    const Vec3 ab = b - a;
+    const bool is_valley = ab.dot(wall.normals[uz(t)].cross(wall.normals[uz(other)])) < 0.0;
+    if (!is_valley) continue;
+    const double s = std::clamp((c - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+    lead = std::min(lead, (c - a - s * ab).norm() - distance);
+  }
+  return lead;
+}
+
+} // namespace
+
+std::optional<PatchTouch> touch_patch(const Wall& wall, const ListedCandidate& candidate,
+                                      const Body& body, double wall_travel)
+{
+  struct Feature {
+    Anchor at;
+    Closest::On on;
+    Vec3 point;
+    double distance, overlap;
+  };
+  std::array<Feature, PatchTouch::most> features;
+  std::size_t n_features = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  bool is_inside = true;
+  Feature closest{};
+  const double reach = wall.material.g_a * body.S;
+  // Round-off of the distances is far below a millionth of a radius.
+  const double moved = (body.x - candidate.x).norm() + wall_travel + 1e-6 * body.R;
+  for (const auto& [t, clearance] : candidate.near) {
+    if (clearance > moved) continue; // most candidates end here
+    const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(t)][0])];
+    const double height = (body.x - corner).dot(wall.normals[uz(t)]);
+    if (height - body.R >= reach) continue; // a bound of the distance to the triangle
+    const Closest at = closest_on(wall, t, body.x);
+    const double d = (body.x - at.point).norm();
+    const Feature feature{{t, at.weight}, at.on, at.point, d, reach - (d - body.R)};
+    if (d < nearest) {
+      nearest = d;
+      closest = feature;
+      // The rim of a wall has no other side.
+      const bool has_sides =
+          at.on == Closest::On::face ||
+          (at.on == Closest::On::edge && wall.topology.across[uz(t)][uz(at.which)] >= 0);
+      is_inside = !has_sides || height > 0.0;
+    }
+    if (feature.overlap <= 0.0 || !is_reported(wall, t, at, body.x)) continue;
+    if (n_features == features.size())
+      throw NumericalError(
+          "a particle touches more than " + std::to_string(features.size()) +
+          " features of a wall: its triangles are too small for the grains");
+    features[n_features++] = feature;
+  }
+  if (!is_inside) throw NumericalError("its centre is on the wrong side of a wall");
+
+  double total = 0.0;
+  for (std::size_t k = 0; k < n_features; ++k) {
+    Feature& f = features[k];
+    if (f.on == Closest::On::face && n_features > 1)
+      f.overlap = std::min(f.overlap, std::max(0.0, lead_over_valleys(wall, f.at.triangle,
+                                                                      body.x, f.distance)));
+    total += f.overlap;
+  }
+  // Straight over an edge, round-off may let no feature claim the centre: the closest does.
+  if (total <= 0.0 && closest.overlap > 0.0) {
+    features[0] = closest;
+    n_features = 1;
+    total = closest.overlap;
+  }
+  if (n_features == 0) return std::nullopt;
+
+  PatchTouch p;
+  double distance = 0.0;
+  for (std::size_t k = 0; k < n_features; ++k) {
+    const double w = features[k].overlap / total; // overlaps are positive
+    p.shares[p.n++] = {features[k].at, w};
+    p.touch.point += w * features[k].point;
+    p.touch.v += w * at(wall.v, wall.topology, features[k].at);
+    p.touch.n += w * (features[k].point - body.x) / features[k].distance;
+    distance += w * features[k].distance;
+  }
+  p.touch.n.normalize();
+  p.touch.gap = distance - body.R;
+  return p;
+}
+
+void rebuild_wall(Wall& wall, const Particles& p, double skin)
+{
+  std::vector<WallContact> found;
+  std::vector<ListedCandidate> listed;
+  const WallTopology& topo = wall.topology;
+
+  // Bounding spheres of the triangles, sorted along z, so that a particle sees only its own
+  // slice.
+  struct Ball {
+    double z, r;
+    Vec3 c;
+    int t;
+  };
+  std::vector<Ball> balls;
+  double r_max = 0.0;
+  for (std::size_t t = 0; t < topo.triangles.size(); ++t) {
+    const Triangle& k = topo.triangles[t];
+    const Vec3 c = (wall.x[uz(k[0])] + wall.x[uz(k[1])] + wall.x[uz(k[2])]) / 3.0;
+    double r = 0.0;
+    for (const int m : k) r = std::max(r, (wall.x[uz(m)] - c).norm());
+    balls.push_back({c.z(), r, c, static_cast<int>(t)});
+    r_max = std::max(r_max, r);
+  }
+  std::sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) {
+    return std::pair{a.z, a.t} < std::pair{b.z, b.t};
+  });
+
+  struct Hit {
+    int patch, triangle;
+    double distance2;
+  };
+  std::vector<Hit> hits;
+  p.for_owned([&](Index i) {
+    const Body& b = p.body[i];
+    const double reach = b.R + (wall.material.g_a + skin) * b.S;
+    hits.clear();
+    auto ball = std::lower_bound(balls.begin(), balls.end(), b.x.z() - reach - r_max,
+                                 [](const Ball& a, double z) { return a.z < z; });
+    for (; ball != balls.end() && ball->z <= b.x.z() + reach + r_max; ++ball) {
+      const double far = reach + ball->r;
+      if ((b.x - ball->c).squaredNorm() > far * far) continue;
+      const double distance2 = (closest_on(wall, ball->t, b.x).point - b.x).squaredNorm();
+      if (distance2 > reach * reach) continue;
+      hits.push_back({topo.patch[uz(ball->t)], ball->t, distance2});
+    }
+    std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& c) {
+      return std::pair{a.patch, a.triangle} < std::pair{c.patch, c.triangle};
+    });
+    for (const Hit& hit : hits) {
+      if (found.empty() || found.back().particle != i || found.back().wall != hit.patch) {
+        found.push_back({i, hit.patch, Vec3::Zero(), 0.0});
+        listed.push_back({b.x, {}});
+      }
+      const double beyond = b.R + wall.material.g_a * b.S;
+      listed.back().near.push_back({hit.triangle, std::sqrt(hit.distance2) - beyond});
+    }
+  });
+  wall.contacts = carry_history(std::move(found), wall.contacts);
+  wall.listed = std::move(listed);
+  wall.x_listed = wall.x;
+}
+
+double travel(const Wall& wall)
+{
+  if (wall.x_listed.size() != wall.x.size()) return std::numeric_limits<double>::infinity();
+  double most2 = 0.0;
+  for (std::size_t k = 0; k < wall.x.size(); ++k)
+    most2 = std::max(most2, (wall.x[k] - wall.x_listed[k]).squaredNorm());
+  return std::sqrt(most2);
+}
+
+void bond_to_wall(Wall& wall, Particles& p, double limit)
+{
+  if (!wall.bonds.empty()) throw std::logic_error("this wall is bonded already");
+  std::vector<std::vector<int>> triangles_of(uz(wall.topology.n_patches));
+  for (std::size_t t = 0; t < wall.topology.triangles.size(); ++t)
+    triangles_of[uz(wall.topology.patch[t])].push_back(static_cast<int>(t));
+  p.for_owned([&](Index i) {
+    const Body& b = p.body[i];
+    // One bond per patch in reach: a particle in a corner is held by both sides.
+    for (const std::vector<int>& own : triangles_of) {
+      Anchor anchor;
+      const Vec3 point = closest_point_of_wall(wall, own, b.x, anchor);
+      const double gap = (point - b.x).norm() - b.R;
+      if (gap >= limit * b.S) continue;
+      WallBond bond;
+      bond.particle = i;
+      bond.anchor = anchor;
+      bond.gap_0 = gap;
+      wall.bonds.push_back(bond);
+      ++p.n_bonds[i];
+    }
+  });
+}
+
+} // namespace mergel::dem

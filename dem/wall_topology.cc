@@ -1,0 +1,91 @@
+/// The triangles of a wall: what lies beyond their edges, their smooth patches, their normals.
+#include "dem/walls.h"
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace mergel::dem {
+
+namespace {
+
+/// Cosine of the largest fold that one smooth patch may have.
+const double cos_fold = std::cos(pi / 6.0);
+
+Vec3 area_vector(const std::vector<Vec3>& x, const Triangle& t)
+{
+  const auto at = [&](int k) {
+    return x[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+  };
+  return 0.5 * (at(1) - at(0)).cross(at(2) - at(0));
+}
+
+} // namespace
+
+WallTopology make_topology(const std::vector<Vec3>& x, std::vector<Triangle> triangles)
+{
+  WallTopology topo;
+  topo.triangles = std::move(triangles);
+  const std::size_t n = topo.triangles.size();
+  topo.across.assign(n, {-1, -1, -1});
+  topo.around.resize(x.size());
+
+  std::vector<Vec3> normal(n);
+  std::map<std::pair<int, int>, std::pair<int, int>>
+      edges; // directed edge -> triangle, edge
+  for (std::size_t t = 0; t < n; ++t) {
+    const Triangle& k = topo.triangles[t];
+    for (const int m : k)
+      require(m >= 0 && uz(m) < x.size(), "wall triangle " + std::to_string(t) +
+                                              " names node " + std::to_string(m) + " of " +
+                                              std::to_string(x.size()));
+    const Vec3 a = area_vector(x, k);
+    require(a.norm() > 0.0, "wall triangle " + std::to_string(t) + " has no area");
+    normal[t] = a.normalized();
+    for (int e = 0; e < 3; ++e) {
+      const std::pair edge{k[uz(e)], k[uz((e + 1) % 3)]};
+      require(
+          edges.emplace(edge, std::pair{static_cast<int>(t), e}).second,
+          "wall triangle " + std::to_string(t) +
+              " runs along an edge in the same direction as another: turn its normal, or "
+              "split an edge of more than two triangles");
+      topo.around[uz(k[uz(e)])].push_back(static_cast<int>(t));
+    }
+  }
+  for (const auto& [edge, here] : edges) {
+    const auto there = edges.find({edge.second, edge.first});
+    if (there == edges.end()) continue;
+    const int other = there->second.first;
+    if (normal[uz(here.first)].dot(normal[uz(other)]) < cos_fold) continue;
+    topo.across[uz(here.first)][uz(here.second)] = other;
+  }
+
+  topo.patch.assign(n, -1);
+  for (std::size_t t = 0; t < n; ++t) {
+    if (topo.patch[t] >= 0) continue;
+    std::vector<int> open{static_cast<int>(t)};
+    topo.patch[t] = topo.n_patches;
+    while (!open.empty()) {
+      const int k = open.back();
+      open.pop_back();
+      for (const int other : topo.across[uz(k)])
+        if (other >= 0 && topo.patch[uz(other)] < 0) {
+          topo.patch[uz(other)] = topo.n_patches;
+          open.push_back(other);
+        }
+    }
+    ++topo.n_patches;
+  }
+  return topo;
+}
+
+void update_normals(Wall& wall)
+{
+  const auto& triangles = wall.topology.triangles;
+  wall.normals.resize(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    wall.normals[t] = area_vector(wall.x, triangles[t]).normalized();
+}
+
+} // namespace mergel::dem
