@@ -90,17 +90,23 @@ CoupledRock::CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarF
   dem::share_out(rock, MPI_COMM_WORLD);
   dem::add_forces(rock, 0.0); // nothing has moved yet: histories stay
   dt = dt_before = dem::stable_time_step(rock, safety);
-  lower_time_step();
+  lower_time_step(true);
 }
 
-void CoupledRock::lower_time_step()
+void CoupledRock::lower_time_step(bool far_field_too)
 {
   dt = std::min(dt, dem::stable_time_step(rock, safety));
-  if (model == FarFieldModel::elastic && n_steps % steps_between_far_field_checks == 0) {
+  if (model == FarFieldModel::elastic && far_field_too) {
     const double far =
         far_field.stable_time_step(interface_springs(rock, exchange.transfer()));
     dt = std::min(dt, safety * far / std::sqrt(1.0 + rock.motion.damping));
   }
+}
+
+std::string CoupledRock::where() const
+{
+  return " (step " + std::to_string(n_steps) + ", t = " + std::to_string(1e3 * time) +
+         " ms)";
 }
 
 void CoupledRock::even_out()
@@ -168,7 +174,7 @@ void relax(CoupledRock& coupled, const char* stage, double ratio, std::size_t mo
     now = coupled.unbalanced();
     first = std::max(first, now);
     if (coupled.rock.domain.sum(coupled.rock.losses.broken) > 0)
-      throw NumericalError(
+      throw Unstable(
           "a bond broke before anything was driven (" + shown(now) +
           "): the specimen is too weak for its own weight, or was made under pressure");
     if (now < ratio) {
@@ -179,10 +185,9 @@ void relax(CoupledRock& coupled, const char* stage, double ratio, std::size_t mo
     progress.update(std::clamp(part, 0.0, 1.0), [&] { return shown(now); });
     after_step();
   }
-  throw NumericalError(std::string(stage) + ": no equilibrium in " +
-                       std::to_string(most_steps) + " steps: " + shown(now) + ", wanted " +
-                       dem::shortest(ratio) +
-                       "; raise `Motion/damping` or `Motion/balance`");
+  throw Unstable(std::string(stage) + ": no equilibrium in " + std::to_string(most_steps) +
+                 " steps: " + shown(now) + ", wanted " + dem::shortest(ratio) +
+                 "; raise `Motion/damping` or `Motion/balance`");
 }
 
 /// Put the far field in static equilibrium under the rock's forces, and the rock with it.

@@ -44,28 +44,31 @@ struct CoupledRock {
   CoupledRock& operator=(const CoupledRock&) = delete;
 
   /// One step of rock and far field; `move_pile(dt)` moves what else is driven.
-  /// @throws NumericalError naming what went wrong, the step and the time
+  /// @throws Unstable naming what went wrong, the step and the time
   template <class MovePile>
   void step(MovePile&& move_pile)
   {
-    if (n_steps % steps_between_checks == 0) lower_time_step();
+    if (n_steps % steps_between_checks == 0)
+      lower_time_step(n_steps % steps_between_far_field_checks == 0);
     if (n_steps % steps_between_shares == 0) even_out();
     try {
       dem::advance(rock, dt_before, dt, [&](double h) {
         if (model == FarFieldModel::elastic) exchange.step(rock.walls.front(), h);
         move_pile(h);
       });
+    } catch (const Unstable& e) {
+      throw Unstable(e.what() + where());
     } catch (const NumericalError& e) {
-      throw NumericalError(std::string(e.what()) + " (step " + std::to_string(n_steps) +
-                           ", t = " + std::to_string(1e3 * time) + " ms)");
+      throw NumericalError(e.what() + where());
     }
     dt_before = dt;
     time += dt;
     ++n_steps;
   }
 
-  /// Re-evaluate the critical step of grains and far field; lower dt if it fell.
-  void lower_time_step();
+  /// Re-evaluate the critical step of the grains, and of the far field too; lower dt if it
+  /// fell. Collective.
+  void lower_time_step(bool far_field_too);
 
   /// Give ranks that were slow fewer grains; no bit of the results depends on it.
   void even_out();
@@ -94,6 +97,8 @@ struct CoupledRock {
 private:
   CoupledRock(const RockCase& c, fem::FarField far_field, coupling::Interface interface);
 
+  std::string where() const; ///< the run is, in words
+
   double spent_before_ = 0.0; ///< of rock.times at the last even_out() [s]
 };
 
@@ -105,7 +110,7 @@ fem::FarField make_far_field(RockCase& c);
 /// the far field under the rock's forces, rock moved with it; both relaxed. Goes on where
 /// `coupled.settling` stands.
 /// @param after_step called between two steps, for checkpoints
-/// @throws NumericalError when a bond breaks or equilibrium is not reached in `most_steps`
+/// @throws Unstable when a bond breaks or equilibrium is not reached in `most_steps`
 void equilibrate(CoupledRock& coupled, double ratio, std::size_t most_steps,
                  const std::function<void()>& after_step);
 

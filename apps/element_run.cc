@@ -137,11 +137,26 @@ double ElementRun::driven_rate(const dem::SoilState& now) const
   return case_.inertial_number / (d_ * std::sqrt(rho_ / p));
 }
 
+void ElementRun::lower_time_step()
+{
+  state_.dt = std::min(state_.dt, dem::stable_time_step(state_.rock, case_.safety));
+}
+
 void ElementRun::step()
+{
+  try {
+    step_unguarded();
+  } catch (const Unstable& e) {
+    throw Unstable(std::string(e.what()) + " (step " + std::to_string(state_.n_steps) +
+                   ", t = " + std::to_string(1e3 * state_.time) + " ms)");
+  }
+}
+
+void ElementRun::step_unguarded()
 {
   ElementState& s = state_;
   if (s.n_steps % steps_between_checks == 0) {
-    s.dt = std::min(s.dt, dem::stable_time_step(s.rock, case_.safety));
+    lower_time_step();
     look_at_stiffness();
     dem::check_overlaps(s.rock);
   }
@@ -240,7 +255,7 @@ ElementRecord ElementRun::record()
   s.held_sum.setZero();
   s.n_stress = 0;
   s.since_record = 0.0;
-  if (std::abs(r.energy_error) > 0.01)
+  if (!(std::abs(r.energy_error) <= 0.01))
     throw Unstable("the energy book leaves " + std::to_string(r.energy_error) +
                    " of the work unexplained (at most 0.01) at step " +
                    std::to_string(s.n_steps) + ": lower `Motion/time step safety`");

@@ -19,11 +19,6 @@ enum class Outcome {
 };
 std::string sentence_of(Outcome outcome);
 
-/// A run that is no longer one of physics; found on all ranks alike.
-struct Unstable : CollectiveFailure {
-  using CollectiveFailure::CollectiveFailure;
-};
-
 /// All that changes in a run: plain state.
 struct ElementState {
   dem::Rock rock;
@@ -80,12 +75,16 @@ public:
   /// of the leg count from the end of that.
   void set_out(std::size_t leg);
   bool is_approaching() const { return state_.course.is_approaching; }
-  /// One step.
+  /// One step. @throws Unstable naming what went wrong, the step and the time
   void step();
+  /// Re-evaluate the critical step; lower the time step if it fell. Collective.
+  void lower_time_step();
   /// Whether the leg's goal is met, the rock failed, or it goes on. Failure is looked for
   /// when a record is due, in means over the steps since the last.
   Outcome outcome() const;
   bool record_is_due() const { return state_.since_record >= case_.record_every; }
+  /// The state in numbers, and a new start of all means. @throws Unstable when the energy book
+  /// does not close
   ElementRecord record();
 
   const ElementState& state() const { return state_; }
@@ -95,6 +94,7 @@ public:
 private:
   dem::SoilState soil(const dem::Vec3& sigma) const; ///< strains of the leg
   void approach(double rate);
+  void step_unguarded();
   bool is_pulled_apart() const;
   dem::Vec3 stress() const;
   dem::Vec3 mean_stress() const;

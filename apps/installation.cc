@@ -166,8 +166,8 @@ void Installation::record()
   worst_interface_.force = std::max(worst_interface_.force, r.interface.force);
   worst_interface_.moment = std::max(worst_interface_.moment, r.interface.moment);
   worst_interface_.power = std::max(worst_interface_.power, r.interface.power);
-  if (std::abs(r.energy_error) > 0.01)
-    throw NumericalError("the energy book leaves " + dem::shortest(r.energy_error) +
+  if (!(std::abs(r.energy_error) <= 0.01))
+    throw Unstable("the energy book leaves " + dem::shortest(r.energy_error) +
                          " of the input unexplained (at most 0.01) at step " +
                          std::to_string(coupled_.n_steps) + ", t = " +
                          dem::shortest(time_) + " s: lower `Motion/time step safety`");

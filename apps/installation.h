@@ -60,7 +60,7 @@ public:
 
   /// Drive the pile to the end of its travel.
   /// @param after_step called between two steps, for checkpoints
-  /// @throws NumericalError when a step fails or the energy book does not close
+  /// @throws Unstable when a step fails or the energy book does not close
   void run(const std::function<void()>& after_step);
 
   const PileRecord& last() const { return last_; }

@@ -1,6 +1,6 @@
 #include "dem/cell.h"
 
-#include "dem/error.h"
+#include "dem/collective_failure.h"
 #include "dem/particles.h"
 
 #include <string>
@@ -11,9 +11,9 @@ Vec3 strain(PeriodicCell& cell, double dt, Particles& p)
 {
   const Vec3 step = dt * cell.rate;
   if (!(step.cwiseAbs().maxCoeff() <= 1e-3))
-    throw NumericalError("the periodic cell is strained by " +
-                         std::to_string(step.cwiseAbs().maxCoeff()) +
-                         " in one step (at most 0.001): lower the strain rate");
+    throw Unstable("the periodic cell is strained by " +
+                   std::to_string(step.cwiseAbs().maxCoeff()) +
+                   " in one step (at most 0.001): lower the strain rate");
   const Vec3 growth = (Vec3::Ones() - step).cwiseInverse(); // 1 - step >= 0.999
   cell.size = cell.size.cwiseProduct(growth);
   if (growth != Vec3::Ones())

@@ -44,7 +44,7 @@ struct PeriodicCell {
 
 /// Strain a driven cell over dt [s] and carry the owned grains along, after their own
 /// motion. Returns the growth g of the edges.
-/// @throws NumericalError when an edge changes by more than 1e-3 in the step
+/// @throws Unstable when an edge changes by more than 1e-3 in the step
 Vec3 strain(PeriodicCell& cell, double dt, Particles& p);
 
 } // namespace mergel::dem

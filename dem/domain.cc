@@ -252,6 +252,20 @@ std::size_t Domain::sum(std::size_t count) const
   return n;
 }
 
+void Domain::agree_on(const Fault& fault) const
+{
+  std::string words = fault.words();
+  if (!is_alone()) {
+    const auto first = static_cast<int>(least(fault.is_met() ? rank_ : n_ranks_));
+    if (first == n_ranks_) return;
+    std::uint64_t length = words.size();
+    MPI_Bcast(&length, 1, MPI_UINT64_T, first, comm_);
+    words.resize(length);
+    MPI_Bcast(words.data(), static_cast<int>(length), MPI_CHAR, first, comm_);
+  }
+  if (!words.empty()) throw Unstable(words);
+}
+
 void Domain::gather_bytes(const void* mine, std::size_t n, std::size_t size,
                           const std::function<void*(std::size_t)>& room) const
 {

@@ -6,6 +6,7 @@
 /// adds its pairs in the same order everywhere: no bit depends on the number of ranks.
 #pragma once
 
+#include "dem/collective_failure.h"
 #include "dem/exact_sum.h"
 #include "dem/particles.h"
 
@@ -52,6 +53,10 @@ public:
   double greatest(double value) const;      ///< collective
   std::size_t sum(std::size_t count) const; ///< collective
 
+  /// End the run in order when a rank has met a fault; collective.
+  /// @throws Unstable on all ranks, in the words of the lowest that met one
+  void agree_on(const Fault& fault) const;
+
   /// Records of all ranks, in the order of ranks; collective.
   template <class Record>
   std::vector<Record> gather(const std::vector<Record>& mine) const
@@ -86,6 +91,7 @@ private:
 /// Exact sums of the ranks, added up by one message: list them, then run().
 class ExactReduction {
 public:
+  bool is_empty() const { return terms_.empty(); }
   template <int exponent>
   void add(ExactSum<exponent>& s)
   {

@@ -3,7 +3,6 @@
 
 #include "dem/cell.h"
 
-#include <limits>
 #include <variant>
 #include <vector>
 

@@ -243,7 +243,7 @@ Packing lock(const SpecimenSpec& s, const Packing& cloud, double friction, MPI_C
     n_met = std::abs(hold.run()) < 0.25 * pressure_tolerance ? n_met + 1 : 0;
     if (n_met > 20 && settling.unbalanced() < at_rest) break;
     if (k == looks_at_rest)
-      throw NumericalError(
+      throw CollectiveFailure(
           "a specimen under " + shortest(s.pressure) + " Pa does not come to rest: after " +
           std::to_string(settling.n_steps()) + " steps its unbalanced-force ratio is " +
           shortest(settling.unbalanced()) + ", wanted " + shortest(at_rest) +
@@ -331,7 +331,7 @@ void expand(const SpecimenSpec& s, Packing& packing, MPI_Comm comm,
       return;
     }
   }
-  throw NumericalError(
+  throw CollectiveFailure(
       "a specimen does not come to rest: after " + std::to_string(settling.n_steps()) +
       " steps its unbalanced-force ratio is " + shortest(settling.unbalanced()) +
       ", wanted " + shortest(at_rest) + "; raise `Specimen/generation friction`");

@@ -24,12 +24,12 @@ double mean_pressure(const Rock& rock, double volume);
 /// as a rule: a periodic box takes it over, inside walls the grains keep it.
 /// @throws InputError with the porosities that lock at least and most friction, when the
 ///   target lies outside
-/// @throws NumericalError when the grains do not come to rest
+/// @throws CollectiveFailure when the grains do not come to rest
 void confine(const SpecimenSpec& spec, Packing& packing, MPI_Comm comm,
              const std::function<void(double)>& progress);
 
 /// Let the grains at their full sizes come to rest, whatever pressure they bear.
-/// @throws NumericalError when they do not
+/// @throws CollectiveFailure when they do not
 void expand(const SpecimenSpec& spec, Packing& packing, MPI_Comm comm,
             const std::function<void(double)>& progress);
 

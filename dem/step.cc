@@ -17,10 +17,12 @@ void choose_ghosts(Rock& rock)
   rock.domain.choose_ghosts(rock.particles, is_needed);
 }
 
-/// What acts on walls, from all ranks.
-void sum_wall_forces(Rock& rock)
+/// What acts on walls and on a driven cell, from all ranks; and, in the same message, whether
+/// one of them has met a fault.
+void sum_over_ranks(Rock& rock)
 {
-  if (rock.domain.is_alone()) return;
+  if (rock.cell.is_driven) rock.virial = rock.losses.virial;
+  if (rock.domain.is_alone()) return rock.domain.agree_on(rock.fault);
   ExactReduction sums;
   for (PlaneWall& w : rock.planes) sums.add(w.force);
   for (Wall& w : rock.walls)
@@ -29,16 +31,13 @@ void sum_wall_forces(Rock& rock)
     sums.add(w.load.cone);
     sums.add(w.load.shaft);
   }
+  if (rock.cell.is_driven) sums.add(rock.virial);
+  if (sums.is_empty()) return; // a fault waits for the next step
+  ForceSum n_faults;
+  if (rock.fault.is_met()) n_faults.add(1.0);
+  sums.add(n_faults);
   sums.run(rock.domain);
-}
-
-void sum_virial(Rock& rock)
-{
-  if (!rock.cell.is_driven) return;
-  rock.virial = rock.losses.virial;
-  ExactReduction sums;
-  sums.add(rock.virial);
-  sums.run(rock.domain);
+  if (n_faults.value() > 0.0) rock.domain.agree_on(rock.fault);
 }
 
 /// Half of the skin belongs to the particles, half to the walls. The same on all ranks.
@@ -71,16 +70,43 @@ void rebuild_lists(Rock& rock)
   const Particles& p = rock.particles;
   const double skin = rock.list.skin();
   rock.list.rebuild(p, rock.cell, rock.bonds, rock.contacts);
-  for (Mirror& m : rock.mirrors) rebuild_mirror(m, p, rock.material.contact.g_a, skin);
-  for (PlaneWall& w : rock.planes)
-    w.contacts.rebuild(p, w.material.g_a, skin, w.plane.point,
-                       [&](const Body& b) { return w.plane.touch(b).gap; });
-  for (Wall& w : rock.walls) rebuild_wall(w, p, skin);
-  for (PileWall& w : rock.piles)
-    w.contacts.rebuild(p, w.material.g_a, skin, w.pile.tip(),
-                       [&](const Body& b) { return w.pile.meet(b).touch.gap; });
+  rock.fault.watch([&] {
+    for (Mirror& m : rock.mirrors) rebuild_mirror(m, p, rock.material.contact.g_a, skin);
+    for (PlaneWall& w : rock.planes)
+      w.contacts.rebuild(p, w.material.g_a, skin, w.plane.point,
+                         [&](const Body& b) { return w.plane.touch(b).gap; });
+    for (Wall& w : rock.walls) rebuild_wall(w, p, skin);
+    for (PileWall& w : rock.piles)
+      w.contacts.rebuild(p, w.material.g_a, skin, w.pile.tip(),
+                         [&](const Body& b) { return w.pile.meet(b).touch.gap; });
+  });
   choose_ghosts(rock);
 }
+
+namespace {
+
+/// The forces on our grains, and of them on walls.
+template <class Lap>
+void add_own_forces(Rock& rock, double dt, Lap&& lap)
+{
+  Particles& p = rock.particles;
+  add_bond_forces(rock.material, rock.cell, dt, p, rock.bonds, rock.losses);
+  lap(rock.times.bonds);
+  add_contact_forces(rock.material.contact, rock.cell, dt, p, rock.contacts, rock.losses);
+  lap(rock.times.contacts);
+
+  for (Mirror& m : rock.mirrors) add_mirror_forces(rock.material, dt, p, m, rock.losses);
+  for (PlaneWall& w : rock.planes)
+    w.force = add_plane_forces(w.material, w.plane, dt, p, w.contacts, rock.losses);
+  for (Wall& w : rock.walls)
+    add_wall_forces(rock.material.bond, rock.wall_bonds_yield, dt, p, w, rock.losses);
+  for (PileWall& w : rock.piles)
+    w.load = add_pile_forces(w.material, w.pile, dt, p, w.contacts, rock.losses);
+  for (const Mirror& m : rock.mirrors) hold_mirror_spin(m, p);
+  lap(rock.times.walls);
+}
+
+} // namespace
 
 void add_forces(Rock& rock, double dt)
 {
@@ -99,22 +125,8 @@ void add_forces(Rock& rock, double dt)
   rock.losses.virial.clear();
   lap(rock.times.lists);
 
-  add_bond_forces(rock.material, rock.cell, dt, p, rock.bonds, rock.losses);
-  lap(rock.times.bonds);
-  add_contact_forces(rock.material.contact, rock.cell, dt, p, rock.contacts, rock.losses);
-  lap(rock.times.contacts);
-
-  for (Mirror& m : rock.mirrors) add_mirror_forces(rock.material, dt, p, m, rock.losses);
-  for (PlaneWall& w : rock.planes)
-    w.force = add_plane_forces(w.material, w.plane, dt, p, w.contacts, rock.losses);
-  for (Wall& w : rock.walls)
-    add_wall_forces(rock.material.bond, rock.wall_bonds_yield, dt, p, w, rock.losses);
-  for (PileWall& w : rock.piles)
-    w.load = add_pile_forces(w.material, w.pile, dt, p, w.contacts, rock.losses);
-  for (const Mirror& m : rock.mirrors) hold_mirror_spin(m, p);
-  lap(rock.times.walls);
-  sum_wall_forces(rock);
-  sum_virial(rock);
+  rock.fault.watch([&] { add_own_forces(rock, dt, lap); });
+  sum_over_ranks(rock);
   lap(rock.times.exchange);
 }
 
@@ -148,7 +160,7 @@ void check_overlaps(const Rock& rock)
     const Body &i = rock.particles.body[q.i], &j = rock.particles.body[q.j];
     const double r = std::min(i.R, j.R);
     const double overlap = i.R + j.R - (j.x + rock.cell.offset(q.shift) - i.x).norm();
-    if (overlap > 0.5 * r)
+    if (!(overlap <= 0.5 * r))
       throw NumericalError(
           "particles " + std::to_string(rock.particles.id[q.i]) + " and " +
           std::to_string(rock.particles.id[q.j]) + " overlap by " +
@@ -156,8 +168,12 @@ void check_overlaps(const Rock& rock)
           " of the smaller radius (at most 0.5): the contact is too soft for "
           "this load");
   };
-  for (const Pair& q : rock.bonds.pairs) check(q);
-  for (const Pair& q : rock.contacts.pairs) check(q);
+  Fault fault;
+  fault.watch([&] {
+    for (const Pair& q : rock.bonds.pairs) check(q);
+    for (const Pair& q : rock.contacts.pairs) check(q);
+  });
+  rock.domain.agree_on(fault);
 }
 
 WallPower wall_power(const Rock& rock)

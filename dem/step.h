@@ -9,6 +9,8 @@
 #include "dem/timestep.h"
 #include "dem/walls.h"
 
+#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace mergel::dem {
@@ -79,12 +81,15 @@ struct Rock {
   EnergySum pile_work; ///< done on the rock by the pile [J]
   EnergySum cell_work; ///< done on the rock by a driven cell [J]
   ExactVector<EnergySum> virial; ///< of a driven cell in the last step, of all ranks [J]
+  Fault fault;                   ///< of this rank, of which the others do not know yet
   StepTimes times;
 };
 
 /// Forces at the present positions, from histories carried over the step dt [s] that ends
 /// now. Ghosts follow their owners first; lists are rebuilt when they are stale. Collective,
 /// as is all below.
+/// @throws Unstable naming the particle, on all ranks alike, when a force or a place cannot
+///   be; on several ranks, of a rock without walls and driven cell, in the next advance()
 void add_forces(Rock& rock, double dt);
 
 /// Make all lists anew for the present positions, whatever their age: it changes no force.
@@ -95,6 +100,8 @@ void rebuild_lists(Rock& rock);
 /// The walls hold v^{n-1/2} before and v^{n+1/2} after move_walls, which also moves them to
 /// x^{n+1}; it may set the rate of the cell too.
 /// @param dt_before the step before [s]; the kick uses the mean of both
+/// @throws Unstable naming the particle that moves or turns too far, and as
+///   add_forces(), on all ranks alike
 template <class MoveWalls>
 void advance(Rock& rock, double dt_before, double dt, MoveWalls&& move_walls);
 
@@ -104,8 +111,8 @@ double stable_time_step(const Rock& rock, double safety);
 /// Unbalanced-force ratio of the rock [-].
 double unbalanced_ratio(const Rock& rock);
 
-/// @throws NumericalError naming the particle when two grains overlap by more than half of
-///   the smaller radius
+/// @throws Unstable naming the particles when two grains overlap by more than half of the
+///   smaller radius
 void check_overlaps(const Rock& rock);
 
 /// Power of the wall forces of the last step on the rock, at the present wall velocities
@@ -127,10 +134,14 @@ void advance(Rock& rock, double dt_before, double dt, MoveWalls&& move_walls)
 {
   const double start = wall_clock();
   const double dt_kick = 0.5 * (dt_before + dt);
-  const double most = kick_and_drift(rock.particles, rock.motion, dt_kick, dt, rock.work);
+  double most = std::numeric_limits<double>::infinity(); // stays so where a fault is met
+  rock.fault.watch(
+      [&] { most = kick_and_drift(rock.particles, rock.motion, dt_kick, dt, rock.work); });
   const double moved = wall_clock();
   rock.times.motion += moved - start;
-  rock.list.add_motion(rock.domain.greatest(most));
+  const double most_of_all = rock.domain.greatest(most);
+  if (std::isinf(most_of_all)) rock.domain.agree_on(rock.fault);
+  rock.list.add_motion(most_of_all);
   rock.times.exchange += wall_clock() - moved;
   // Work of the forces at t^n on the mean motion of the walls around t^n.
   const WallPower before = wall_power(rock);

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# What the owner of one grain alone finds wrong ends the run on all ranks together, in the same words
+# on any number of ranks, and without MPI_Abort.
+#
+# usage: tests/mpi/faults.sh MPI_FAULTS
+set -euo pipefail
+faults=$(readlink -f "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+# A container has no other user; ranks that share a processor must not spin.
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
+
+fail() { echo "FAILED: $*"; exit 1; }
+for fault in drift force overlap nowhere; do
+  for n in 1 2 3; do
+    timeout 120 mpirun --oversubscribe -n $n "$faults" $fault >$n 2>&1 || fail "$fault on $n ranks: $(cat $n)"
+    cmp 1 $n || fail "$fault on $n ranks: $(cat $n), on one: $(cat 1)"
+  done
+  echo "$fault: $(cat 1)"
+done
+echo "faults: all holds"
