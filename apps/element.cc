@@ -142,10 +142,10 @@ namespace {
 /// Keys that a restart may change; of the legs those to come.
 std::vector<std::string> free_keys()
 {
-  std::vector<std::string> keys{
-      "Loading/strain limit",  "Analysis/secant from",     "Analysis/secant to",
-      "Analysis/yield offset", "Analysis/critical states", "Output/checkpoint every",
-      "Specimen/file"};
+  std::vector<std::string> keys{"Loading/strain limit",     "Analysis/secant from",
+                                "Analysis/secant to",       "Analysis/yield offset",
+                                "Analysis/critical states", "Motion/time step safety",
+                                "Output/checkpoint every",  "Specimen/file"};
   for (std::size_t k = 0; k < most_legs; ++k) keys.push_back("Loading/" + key_of_leg(k));
   return keys;
 }
@@ -204,6 +204,7 @@ void go_on(Test& test, const CaseFile& file, const ElementCase& c, OutputFolder&
   test.outcomes = take_outcomes(state, c);
   test.seconds_before = state.get_rows<double>("seconds", 1).front();
   test.run.emplace(c, state);
+  if (has_changed(restart, "Motion", "time step safety")) test.run->lower_time_step();
   on_first_rank([&] {
     go_on_in(folder, inputs, file, restart);
     test.history.emplace(folder.path() / "history.csv", restart.folder / "history.csv",
@@ -257,22 +258,22 @@ int run_element(const JobOptions& options)
                         state.add_common<double>("seconds", {seconds()});
                       });
   };
-  const auto close = [&] {
-    if (!is_first_rank() || test.records.empty()) return;
-    const ElementSummary s =
-        summary_of(c, *test.run, test.outcomes, test.records, seconds());
-    write_summary(folder.path() / "summary.json", c, s);
-    print_summary(folder.path(), s);
+  const auto close = [&](const char* name, const std::string& failure) {
+    on_first_rank([&] {
+      if (test.records.empty()) return;
+      const ElementSummary s =
+          summary_of(c, *test.run, test.outcomes, test.records, seconds());
+      write_summary(folder.path() / name, c, s, failure);
+      print_summary(folder.path() / name, s);
+    });
   };
   try {
     follow_all(test, c, is_under_way, after_step);
-  } catch (const Unstable&) { // on all ranks
-    close();
-    keeper.rethrow_with_remedy();
   } catch (...) {
-    keeper.rethrow_with_remedy();
+    keeper.rethrow_with_remedy(
+        [&](const std::string& failure) { close("failed.json", failure); });
   }
-  close();
+  close("summary.json", "");
   return 0;
 }
 

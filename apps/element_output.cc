@@ -1,6 +1,7 @@
 #include "apps/element_output.h"
 
 #include "apps/progress.h"
+#include "apps/words.h"
 #include "dem/io/atomic_file.h"
 
 #include <algorithm>
@@ -386,13 +387,15 @@ CriticalStates critical_states(const ElementCase& c, const ElementRecord& last)
 }
 
 void write_summary(const std::filesystem::path& file, const ElementCase& c,
-                   const ElementSummary& s)
+                   const ElementSummary& s, const std::string& failure)
 {
   std::ostringstream out;
   const auto number = [&](const std::string& name, double value, const char* end = ",\n") {
     out << "  \"" << name << "\": " << dem::shortest(value) << end;
   };
-  out << "{\n  \"legs\": [";
+  out << "{\n";
+  if (!failure.empty()) out << "  \"failure\": " << in_json(failure) << ",\n";
+  out << "  \"legs\": [";
   const char* comma = "\n";
   for (const LegResult& leg : s.legs) {
     out << comma << "    {\n      \"leg\": \"" << leg.name << "\",\n      \"outcome\": \""
@@ -432,8 +435,9 @@ void write_summary(const std::filesystem::path& file, const ElementCase& c,
   dem::replace_file(file, out.str());
 }
 
-void print_summary(const std::filesystem::path& folder, const ElementSummary& s)
+void print_summary(const std::filesystem::path& file, const ElementSummary& s)
 {
+  const std::string folder = file.parent_path().string();
   std::ostream& out = std::cout;
   out.precision(4);
   out << '\n';
@@ -466,8 +470,8 @@ void print_summary(const std::filesystem::path& folder, const ElementSummary& s)
       << s.n_particles << " grains, " << s.n_steps << " steps, "
       << 1e9 * s.seconds / static_cast<double>(s.n_steps * s.n_particles)
       << " ns a grain and step, whole run " << duration_text(s.seconds)
-      << "\nresults: " << folder.string()
-      << " (history.csv, summary.json); pictures: mergel-view " << folder.string() << '\n';
+      << "\nresults: " << folder << " (history.csv, " << file.filename().string()
+      << "); pictures: mergel-view " << folder << '\n';
 }
 
 } // namespace mergel::apps

@@ -62,8 +62,10 @@ struct ElementSummary {
   std::size_t n_particles = 0, n_steps = 0, n_limited = 0;
   double dt = 0.0, seconds = 0.0;
 };
+/// @param failure that ended the test before its time, or empty
 void write_summary(const std::filesystem::path& file, const ElementCase& c,
-                   const ElementSummary& s);
-void print_summary(const std::filesystem::path& folder, const ElementSummary& s);
+                   const ElementSummary& s, const std::string& failure);
+/// @param file that holds the same
+void print_summary(const std::filesystem::path& file, const ElementSummary& s);
 
 } // namespace mergel::apps

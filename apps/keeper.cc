@@ -186,12 +186,31 @@ std::string Keeper::remedy() const
   return "; the last good checkpoint is " + last_.string() + ". " + how_to_continue();
 }
 
-void Keeper::rethrow_with_remedy() const
+std::string Keeper::remedy_of_instability() const
+{
+  if (last_.empty()) return remedy();
+  return "; the last checkpoint is " + last_.string() +
+         ", and the same run fails behind it again. Begin anew with what is said here, or "
+         "continue with a smaller step: mergel " +
+         spec_.job + " --restart " + spec_.folder.string() +
+         " --set \"Motion/time step safety=...\"";
+}
+
+void Keeper::rethrow_with_remedy(
+    const std::function<void(const std::string&)>& leave_figures) const
 {
   try {
     throw;
   } catch (const Remedied&) {
     throw;
+  } catch (const Unstable& e) {
+    std::string message = e.what() + remedy_of_instability();
+    try {
+      if (leave_figures) leave_figures(e.what());
+    } catch (const CollectiveFailure& also) {
+      message += std::string("; what was found until then is lost: ") + also.what();
+    }
+    throw Remedied(message);
   } catch (const CollectiveFailure& e) {
     throw Remedied(e.what() + remedy());
   } catch (...) {

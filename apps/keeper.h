@@ -78,8 +78,11 @@ public:
 
   /// Throw the exception that is being handled: a failure of run, system or library (exit
   /// code 2) as a NumericalError with the remedy, what all ranks know and all else as it is.
+  /// @param leave_figures writes what was found until the run went unstable, and how that is
+  ///   said; collective, may throw CollectiveFailure
   /// @pre called from a catch block
-  [[noreturn]] void rethrow_with_remedy() const;
+  [[noreturn]] void rethrow_with_remedy(
+      const std::function<void(const std::string&)>& leave_figures = {}) const;
 
   std::size_t n_written() const { return n_written_; }
   double longest_write() const { return longest_; } ///< [s]
@@ -90,6 +93,7 @@ private:
   void write_now(const dem::Domain& domain, const Position& at,
                  const std::function<void(dem::State&)>& put);
   std::string how_to_continue() const;
+  std::string remedy_of_instability() const;
 
   KeeperSpec spec_;
   Signals signals_;

@@ -24,11 +24,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 16> own_files{
-    "history.csv", "resolved.prm", "summary.json",     "sample.h5",
-    "damage.png",  "load.png",     "displacement.png", "particles.pvd",
-    "bonds.pvd",   "pile.pvd",     "far_field.pvd",    "loads.png",
-    "surface.png", "element.png",  "isotropic.png",    "curve.png"};
+constexpr std::array<std::string_view, 17> own_files{
+    "history.csv",   "resolved.prm",     "summary.json",  "sample.h5",   "damage.png",
+    "load.png",      "displacement.png", "particles.pvd", "bonds.pvd",   "pile.pvd",
+    "far_field.pvd", "loads.png",        "surface.png",   "element.png", "isotropic.png",
+    "curve.png",     "failed.json"};
 constexpr std::string_view own_folder = "fields";
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& message)
@@ -221,7 +221,7 @@ std::vector<fs::path> OutputFolder::cut_back(std::size_t n_frames, std::uint64_t
       continue;
     }
     std::error_code ignored; // what stays is written again, alike
-    if (final_name(name) != name || name == "summary.json" ||
+    if (final_name(name) != name || name == "summary.json" || name == "failed.json" ||
         (is_own_field(name) && frame_of(name) >= n_frames))
       fs::remove(file, ignored);
   }

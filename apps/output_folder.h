@@ -20,10 +20,10 @@ enum class Earlier {
 /// A folder for the results of one run.
 ///
 /// mergel's own files in it, and the marks of an earlier run: history.csv, resolved.prm,
-/// summary.json, sample.h5, the four series particles, bonds, pile and far_field (.pvd, and
-/// their numbered files in fields/), mergel-view's damage.png, load.png, displacement.png,
-/// loads.png, surface.png, element.png, isotropic.png and curve.png, the checkpoints
-/// checkpoint_*.h5 and *.h5.aside, .aside-2 and so on; also their temporary files
+/// summary.json, failed.json, sample.h5, the four series particles, bonds, pile and
+/// far_field (.pvd, and their numbered files in fields/), mergel-view's damage.png, load.png,
+/// displacement.png, loads.png, surface.png, element.png, isotropic.png and curve.png, the
+/// checkpoints checkpoint_*.h5 and *.h5.aside, .aside-2 and so on; also their temporary files
 /// (dem/io/atomic_file.h). fields/ itself goes when nothing else is in it.
 class OutputFolder {
 public:

@@ -24,9 +24,9 @@ void help_pile(std::ostream& out)
 namespace {
 
 /// Keys that a restart may change.
-const std::vector<std::string> free_keys{"Pile/final depth", "Output/record every",
-                                         "Output/frames", "Output/checkpoint every",
-                                         "Specimen/file"};
+const std::vector<std::string> free_keys{
+    "Pile/final depth", "Motion/time step safety", "Output/record every",
+    "Output/frames",    "Output/checkpoint every", "Specimen/file"};
 
 /// The velocity near the end depends on where the end is: a run that slows down, or would
 /// have by now, cannot get another end.
@@ -97,6 +97,7 @@ int run_pile(const JobOptions& options)
     if (Installation::is_in(state)) piles.push_back(make_pile(c));
     coupled.emplace(c.rock, state, std::move(piles), std::move(far_field),
                     std::move(interface));
+    if (has_changed(*restart, "Motion", "time step safety")) coupled->lower_time_step(true);
     on_first_rank([&] {
       go_on_in(folder, inputs, file, *restart);
       output.emplace(folder.path(), c, restart->folder, state);
@@ -137,19 +138,24 @@ int run_pile(const JobOptions& options)
           if (is_driving) run.put(state);
         });
   };
+  const auto summarise = [&](const char* name, const std::string& failure) {
+    const std::size_t n_debris = count_debris(coupled->rock, c.rock.lip);
+    on_first_rank([&] {
+      write_summary(folder.path() / name, run, *coupled, n_debris, seconds(), failure);
+    });
+    return n_debris;
+  };
   try {
     equilibrate(*coupled, c.rock.balance, 200'000, after_step);
     if (!is_driving) run.begin();
     is_driving = true;
     run.run(after_step);
   } catch (...) {
-    keeper.rethrow_with_remedy();
+    keeper.rethrow_with_remedy([&](const std::string& failure) {
+      if (is_driving) summarise("failed.json", failure);
+    });
   }
-
-  const std::size_t n_debris = count_debris(coupled->rock, c.rock.lip);
-  on_first_rank([&] {
-    write_summary(folder.path() / "summary.json", run, *coupled, n_debris, seconds());
-  });
+  const std::size_t n_debris = summarise("summary.json", "");
   print_summary(folder.path(), c, run, *coupled, n_debris,
                 {coupled->n_steps - before.n_steps, seconds()});
   return 0;

@@ -1,6 +1,7 @@
 #include "apps/pile_summary.h"
 
 #include "apps/progress.h"
+#include "apps/words.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"
 
@@ -52,7 +53,8 @@ std::string shares(const CoupledRock& coupled, const Work& work)
 } // namespace
 
 void write_summary(const std::filesystem::path& file, const Installation& run,
-                   const CoupledRock& coupled, std::size_t n_debris, double seconds)
+                   const CoupledRock& coupled, std::size_t n_debris, double seconds,
+                   const std::string& failure)
 {
   const PileRecord& r = run.last();
   const BreakageCount& broken = run.breakage();
@@ -62,6 +64,7 @@ void write_summary(const std::filesystem::path& file, const Installation& run,
   };
   const auto count = [](std::size_t n) { return static_cast<double>(n); };
   out << "{\n";
+  if (!failure.empty()) out << "  \"failure\": " << in_json(failure) << ",\n";
   number("depth [m]", r.depth);
   number("tip depth [m]", r.tip_depth);
   number("q_c [Pa]", r.q_c);

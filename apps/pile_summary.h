@@ -16,9 +16,12 @@ struct Work {
   double seconds;
 };
 
-/// @param seconds of the whole run; @throws NumericalError when it cannot be written
+/// @param seconds of the whole run
+/// @param failure that ended the run before its time, or empty
+/// @throws NumericalError when it cannot be written
 void write_summary(const std::filesystem::path& file, const Installation& run,
-                   const CoupledRock& coupled, std::size_t n_debris, double seconds);
+                   const CoupledRock& coupled, std::size_t n_debris, double seconds,
+                   const std::string& failure);
 
 void print_summary(const std::filesystem::path& folder, const PileCase& c,
                    const Installation& run, const CoupledRock& coupled,

@@ -153,7 +153,20 @@ void check_case(const CaseFile& file, Restart& restart,
                        shown(c.was) + ", the case asks for " + shown(c.is) +
                        ". Restore it, or begin a new run; a restart may change only " +
                        joined(free, ", ") + ".");
+    // A plain number in (0, 1], as the cases read it.
+    if (key == "Motion/time step safety" && std::stod(c.is) > std::stod(c.was))
+      file.refuse(c.section, c.key,
+                  "was " + c.was +
+                      ", and a restart can only lower it: the time step of a "
+                      "run never grows");
   }
+}
+
+bool has_changed(const Restart& restart, const std::string& section, const std::string& key)
+{
+  return std::any_of(
+      restart.changed.begin(), restart.changed.end(),
+      [&](const CaseFile::Change& c) { return c.section == section && c.key == key; });
 }
 
 std::vector<fs::path> inputs_of(const JobOptions& options,

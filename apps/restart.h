@@ -39,7 +39,8 @@ void read_case(CaseFile& file, const JobOptions& options,
 
 /// Compare the case with that of the checkpoint, for restart.changed.
 /// @param free the keys that may change, "Section/key"
-/// @throws InputError naming another key that has changed: "was X, the case asks for Y"
+/// @throws InputError naming another key that has changed: "was X, the case asks for Y"; when
+///   `Motion/time step safety` was raised: the time step only falls in a run
 void check_case(const CaseFile& file, Restart& restart,
                 const std::vector<std::string>& free);
 
@@ -90,6 +91,10 @@ void go_on_in(OutputFolder& folder, const std::vector<std::filesystem::path>& in
 /// Collective.
 std::filesystem::path bring_along(const std::filesystem::path& checkpoint,
                                   const std::filesystem::path& folder);
+
+/// Whether the case that goes on has another value for this key.
+bool has_changed(const Restart& restart, const std::string& section,
+                 const std::string& key);
 
 /// What the user should know: where the run goes on, what could not be read, what has
 /// changed.

@@ -69,6 +69,17 @@ inline std::string in_one_line(std::string text)
   return joined(kept, " ");
 }
 
+/// The text as a string of JSON, in its quotation marks. @pre it is in one line
+inline std::string in_json(const std::string& text)
+{
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
 /// Number of insertions, deletions and substitutions between two words, capitals ignored.
 /// Source: Wagner & Fischer (1974), J. ACM 21, 168.
 inline std::size_t edit_distance(const std::string& a, const std::string& b)

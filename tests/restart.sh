@@ -120,6 +120,15 @@ cmp whole/history.csv e/history.csv || fail "the history differs"
 grep -q 'set aside: e/checkpoint_999999999999.h5.aside' log && [ -e e/checkpoint_999999999999.h5.aside ] ||
   fail "the damaged one was not kept: $(ls e)"
 
+# After an instability the same step would fail again: the factor of the time step may be lowered, and is
+# at once; it cannot be raised.
+rm -rf e; cp -r b e
+[ "$(code_of pile --restart e --set "Motion/time step safety=0.9")" -eq 1 ] && grep -q 'time step safety.*was 0.7, and a restart can only lower it' log ||
+  fail "a raised factor of the time step: $(cat log)"
+pile --restart e --set "Motion/time step safety=0.35" >log || fail "a lowered factor of the time step: $(tail -3 log)"
+dt() { awk -F': ' '/"time step \[s\]"/ { print $2 + 0 }' "$1/summary.json"; }
+awk -v a="$(dt whole)" -v b="$(dt e)" 'BEGIN { exit !(b > 0.45 * a && b < 0.55 * a) }' || fail "time step $(dt e), before $(dt whole)"
+
 # One that is not damaged is not gone behind: another user's, a newer program's, here a link to nowhere.
 rm -rf e; cp -r b e
 ln -s /nowhere e/checkpoint_999999999999.h5

@@ -18,6 +18,7 @@
 using namespace mergel;
 using namespace mergel::apps;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 namespace fs = std::filesystem;
 
 namespace {
@@ -153,8 +154,35 @@ TEST_CASE("A failure of a library or of memory names the last good checkpoint",
                     Contains("out of memory") && Contains("checkpoint is earlier.h5"));
   CHECK_THROWS_WITH(rethrown(NumericalError("a NaN")),
                     Contains("a NaN; the last good checkpoint is earlier.h5"));
+  CHECK_THROWS_WITH(rethrown(Unstable("too far")),
+                    Contains("too far; the last checkpoint is earlier.h5") &&
+                        Contains("--set \"Motion/time step safety=...\""));
   CHECK_THROWS_AS(rethrown(InputError("bad")), InputError);
   CHECK_THROWS_AS(rethrown(std::out_of_range("at 7")), std::out_of_range);
+}
+
+TEST_CASE("What was found until a run went unstable is left, and its loss hides no failure",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  const Keeper keeper({.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
+  const auto fail = [&](const auto& error, const auto& leave_figures) {
+    try {
+      throw error;
+    } catch (...) {
+      keeper.rethrow_with_remedy(leave_figures);
+    }
+  };
+  std::string left;
+  const auto leave = [&](const std::string& failure) { left = failure; };
+  CHECK_THROWS_AS(fail(NumericalError("a NaN"), leave), NumericalError);
+  CHECK(left.empty()); // other ranks know nothing of it
+  CHECK_THROWS_AS(fail(Unstable("too far"), leave), Remedied);
+  CHECK(left == "too far");
+  CHECK_THROWS_WITH(fail(Unstable("too far"),
+                         [](const std::string&) { throw CollectiveFailure("disk full"); }),
+                    StartsWith("too far; there is no checkpoint yet") &&
+                        Contains("disk full"));
 }
 
 TEST_CASE("A checkpoint that cannot be written names the last good one", "[unit][apps]")
