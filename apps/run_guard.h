@@ -11,12 +11,14 @@
 
 #include <mpi.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace mergel::apps {
 
@@ -67,24 +69,70 @@ inline int launched_rank()
   return -1;
 }
 
+/// The way out of a program on several ranks: all together, or none.
+class Exit {
+public:
+  /// Collective where MPI is up.
+  Exit()
+  {
+    int is_up = 0, is_down = 0;
+    MPI_Initialized(&is_up);
+    MPI_Finalized(&is_down);
+    if (!is_up || is_down) return;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &n_ranks_);
+    if (n_ranks_ > 1) MPI_Comm_dup(MPI_COMM_WORLD, &waiting_);
+  }
+  ~Exit()
+  {
+    if (waiting_ != MPI_COMM_NULL) MPI_Comm_free(&waiting_);
+  }
+  Exit(const Exit&) = delete;
+  Exit& operator=(const Exit&) = delete;
+
+  int rank() const { return rank_; }
+  bool is_alone() const { return n_ranks_ == 1; }
+
+  /// Wait for the others here. False when one of them has not come after `patience`: it
+  /// waits in a message for us.
+  bool all_come(std::chrono::milliseconds patience) const
+  {
+    if (is_alone()) return true;
+    MPI_Request all;
+    MPI_Ibarrier(waiting_, &all);
+    const auto end = std::chrono::steady_clock::now() + patience;
+    for (int have_come = 0;;) {
+      MPI_Test(&all, &have_come, MPI_STATUS_IGNORE);
+      if (have_come) return true;
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+
+private:
+  MPI_Comm waiting_ = MPI_COMM_NULL; ///< nothing else is said in it
+  int rank_ = 0, n_ranks_ = 1;
+};
+
 /// Run `body` and return its exit code, or print what it threw on std::cerr and return the
 /// code of that.
 ///
 /// Call it while MPI is up if the body uses MPI: an exception must not unwind past
 /// MPI_Finalize. Bad input is found alike on all ranks, and so is a CollectiveFailure: rank
-/// 0 speaks and all return. Any other exception on one of several ranks would leave the
-/// others waiting: it names its rank and calls MPI_Abort.
+/// 0 speaks and all return. A rank that the others do not follow within `patience`, and any
+/// other exception, would leave the others waiting: it names its rank and calls MPI_Abort.
 template <class Body>
-int run_guarded(const Body& body)
+int run_guarded(const Body& body,
+                std::chrono::milliseconds patience = std::chrono::seconds(20))
 {
+  const Exit exit;
   try {
     return body();
   } catch (...) {
     const Verdict verdict = judge_current_exception();
 
-    int is_up = 0, is_down = 0, rank = 0, n_ranks = 1;
+    int is_up = 0;
     MPI_Initialized(&is_up);
-    MPI_Finalized(&is_down);
     if (!is_up && launched_rank() >= 0) {
       // The launcher ends the job at the first exit: the first rank must have spoken by then.
       MPI_Init(nullptr, nullptr);
@@ -92,15 +140,11 @@ int run_guarded(const Body& body)
       MPI_Finalize();
       return verdict.code;
     }
-    if (is_up && !is_down) {
-      MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-      MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
-    }
-    if (n_ranks == 1 || verdict.is_collective) {
-      if (rank == 0) std::cerr << verdict.message << std::endl;
+    if (exit.is_alone() || (verdict.is_collective && exit.all_come(patience))) {
+      if (exit.rank() == 0) std::cerr << verdict.message << std::endl;
       return verdict.code;
     }
-    std::cerr << "rank " << rank << ": " << verdict.message << std::endl;
+    std::cerr << "rank " << exit.rank() << ": " << verdict.message << std::endl;
     MPI_Abort(MPI_COMM_WORLD, verdict.code);
     return verdict.code;
   }

@@ -6,6 +6,8 @@
 ///   force     a bond of it has lost its history
 ///   overlap   it lies in its neighbour
 ///   nowhere   its place is no number
+///   input     the last rank alone refuses its input, and the others wait for it
+#include "apps/run_guard.h"
 #include "apps/workloads.h"
 #include "dem/collective_failure.h"
 #include "dem/distribute.h"
@@ -82,11 +84,27 @@ bool is_said_by_all(const std::string& words)
   return alike != 0;
 }
 
+/// What only one rank refuses is no end in order.
+int refuse_alone()
+{
+  int rank = 0, n_ranks = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
+  if (rank == n_ranks - 1) throw InputError("my input is not yours");
+  MPI_Barrier(MPI_COMM_WORLD);
+  return 0;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
   MPI_Init(&argc, &argv);
+  if (argc > 1 && std::string(argv[1]) == "input") {
+    const int code = apps::run_guarded(refuse_alone, std::chrono::milliseconds(500));
+    MPI_Finalize();
+    return code;
+  }
   int code = 0;
   try {
     apps::WorkingRock w = make();
