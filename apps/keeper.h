@@ -31,7 +31,8 @@ void declare(CaseFile& file, CheckpointKey& key);
 /// @throws InputError naming file, line and key
 void complete(const CaseFile& file, CheckpointKey& key);
 
-/// "4h", "30 min", "90 s" or "4:00:00", as --walltime takes it [s]. @throws InputError
+/// "4h", "30 min", "4:00:00" or, as Slurm writes it, "1-12:00:00" or "1-12": what --walltime
+/// takes [s]. @throws InputError
 double to_walltime(const std::string& text);
 
 /// A failure whose words already say how to go on.

@@ -47,7 +47,8 @@ const char* const help_on_checkpoints =
     R"(  --restart DIR|FILE         go on in a results folder from its newest good checkpoint, or
                              from this one; begin where there is none yet. CASE.prm may be
                              left out
-  --walltime TIME            write a checkpoint and stop in time before (4h, 30 min, 4:00:00)
+  --walltime TIME            write a checkpoint and stop in time before (4h, 30 min, 4:00:00,
+                             1-12:00:00)
 
 SIGUSR1 asks for a checkpoint, SIGTERM for one and the end of the run.
 
