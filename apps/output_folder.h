@@ -41,8 +41,8 @@ public:
   /// @param inputs files that the run reads later: they must not be among those that
   ///               commit() removes
   /// @throws InputError when something is in its way, it cannot be created or written, it
-  ///         holds an earlier run that is to be kept, or is no run that was only begun, another run is writing there, or an
-  ///         input would be removed
+  ///   holds an earlier run that is to be kept, or one that is not only begun, another
+  ///   run is writing there, or an input would be removed
   void check(const std::vector<std::filesystem::path>& inputs = {}) const;
 
   /// check() again, create the folder, keep other runs out of it while this object lives, and

@@ -12,9 +12,10 @@
 
 namespace mergel::apps {
 
-/// Keep other runs out of the folder that is to go on, before its checkpoints are looked at: a
-/// run that is just ending may write another one. Nothing is held when --restart and --output
-/// name different folders, or none that is there. Collective; the first rank holds it.
+/// Keep other runs out of the folder that is to go on, before its checkpoints are looked
+/// at: a run that is just ending may write another one. Nothing is held when --restart and
+/// --output name different folders, or none that is there. Collective; the first rank
+/// holds it.
 /// @throws InputError naming the run that writes there
 FolderLock hold_restarted(const JobOptions& options);
 
@@ -87,10 +88,10 @@ OutputFolder folder_to_begin_in(const JobOptions& options);
 OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart,
                        const std::vector<std::filesystem::path>& inputs, FolderLock lock);
 
-/// Make a folder ready to go on in: the checkpoint is brought along first, if it is another
-/// folder, so that a run that is killed on the way can never be taken for one without; what the
-/// run wrote behind the checkpoint goes, newer checkpoints are set aside, which is said, and
-/// the resolved case is written. On the first rank.
+/// Make a folder ready to go on in: the checkpoint is brought along first, if it is
+/// another folder, so that a run that is killed on the way can never be taken for one
+/// without; what the run wrote behind the checkpoint goes, newer checkpoints are set
+/// aside, which is said, and the resolved case is written. On the first rank.
 /// @param inputs as of OutputFolder::commit()
 void go_on_in(OutputFolder& folder, const std::vector<std::filesystem::path>& inputs,
               const CaseFile& file, const Restart& restart);

@@ -9,8 +9,8 @@
 
 namespace mergel::apps {
 
-/// Compare the resolved case with that of the first rank, key by key. A path may have another
-/// name on another node: what is read there is compared by itself. Collective.
+/// Compare the resolved case with that of the first rank, key by key. A path may have
+/// another name on another node: what is read there is compared by itself. Collective.
 /// @pre file.read() was called on all ranks
 /// @throws InputError naming key, values and remedy
 void require_same_case(const CaseFile& file);

@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The mark stands on a page that no rank writes to: a network file system sends whole pages
-/// of what it has read before.
+/// The mark stands on a page that no rank writes to: a network file system sends whole
+/// pages of what it has read before.
 constexpr std::uint64_t page = 65536;
 
 constexpr std::chrono::milliseconds pause{100};

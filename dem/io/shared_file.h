@@ -1,8 +1,8 @@
-/// A file that all ranks write into at once. The first makes it and puts a mark into it; the
-/// others write only where they find that mark, so that a folder which is another one on their
-/// node (a disk of its own, an old copy) is told and not filled. What a rank wrote is summed
-/// and compared with what the first reads back: what was lost on the way, or is shown as it was
-/// before, is told too.
+/// A file that all ranks write into at once. The first makes it and puts a mark into it;
+/// the others write only where they find that mark, so that a folder which is another one
+/// on their node (a disk of its own, an old copy) is told and not filled. What a rank
+/// wrote is summed and compared with what the first reads back: what was lost on the way,
+/// or is shown as it was before, is told too.
 #pragma once
 
 #include "dem/domain.h"
@@ -23,7 +23,8 @@ struct Writer {
 Writer this_writer(const Domain& domain);
 std::string name_of(const Writer& w); ///< "rank 3 on node12"
 
-/// Number that only the file's maker knows, behind the end of the file until it is complete.
+/// Number that only the file's maker knows, behind the end of the file until it is
+/// complete.
 struct FileMark {
   std::uint64_t at = 0;    ///< where it stands
   std::uint64_t end = 0;   ///< of the file without it
@@ -79,8 +80,8 @@ void require_mark(const std::filesystem::path& path,
 /// The first piece that these bytes do not hold; null when all are there.
 const Piece* first_wrong(std::string_view bytes, const std::vector<Piece>& pieces);
 
-/// All bytes of the file, which are those that were written; what the system remembers of them
-/// is dropped once when they are not.
+/// All bytes of the file, which are those that were written; what the system remembers of
+/// them is dropped once when they are not.
 /// @throws NumericalError naming the writer of what is wrong, and the remedy
 std::string read_back(const std::filesystem::path& path,
                       const std::filesystem::path& final_name,

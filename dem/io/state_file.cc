@@ -218,7 +218,7 @@ void write_state(const fs::path& file, const std::string& kind, int version,
                                           size * v.size()};
               const std::uint64_t at = begin[k] + first * size;
               out.write(part, at);
-              if (!part.empty() && !domain.is_alone()) // alone it would read its own memory
+              if (!part.empty() && !domain.is_alone())
                 pieces.push_back({at, part.size(), sum_of_words(part), me});
             },
             array.values);
