@@ -6,6 +6,7 @@
 #include "apps/progress.h"
 #include "apps/ranks.h"
 #include "apps/restart.h"
+#include "apps/shared_folder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -193,6 +194,7 @@ void begin(Test& test, const CaseFile& file, const ElementCase& c, OutputFolder&
     file.write_resolved(folder.path() / "resolved.prm");
     test.history.emplace(folder.path() / "history.csv");
   });
+  require_shared(folder.path());
   test.pictures.emplace(folder.path(), c, *test.run);
 }
 
@@ -210,8 +212,9 @@ void go_on(Test& test, const CaseFile& file, const ElementCase& c, OutputFolder&
     test.history.emplace(folder.path() / "history.csv", restart.folder / "history.csv",
                          state);
   });
+  require_shared(folder.path());
   test.pictures.emplace(folder.path(), c, *test.run, restart.folder, state);
-  restart.file = bring_along(restart.file, folder.path());
+  restart.file = folder.path() / restart.file.filename(); // brought along
 }
 
 } // namespace
@@ -221,13 +224,14 @@ int run_element(const JobOptions& options)
   const double start = dem::wall_clock();
   CaseFile file;
   ElementCase c;
+  FolderLock lock = hold_restarted(options);
   std::optional<Restart> restart = take_up(file, c, options, "element", free_keys());
   if (restart) {
     on_every_rank([&] { check_legs(file, c, *restart); });
     std::cout << report(*restart) << '\n';
   }
   const auto inputs = inputs_of(options, restart, {c.specimen.sample, c.specimen.table});
-  OutputFolder folder = folder_of(options, restart, inputs);
+  OutputFolder folder = folder_of(options, restart, inputs, std::move(lock));
   if (restart)
     on_first_rank([&] {
       ElementHistory::check(restart->folder / "history.csv", restart->checkpoint.state);

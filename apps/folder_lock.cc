@@ -118,7 +118,7 @@ FolderLock::~FolderLock()
 }
 
 FolderLock::FolderLock(FolderLock&& other) noexcept
-    : file_(std::move(other.file_)), number_(std::exchange(other.number_, -1))
+    : file_(std::exchange(other.file_, {})), number_(std::exchange(other.number_, -1))
 {
 }
 
@@ -127,6 +127,12 @@ FolderLock& FolderLock::operator=(FolderLock&& other) noexcept
   std::swap(file_, other.file_);
   std::swap(number_, other.number_);
   return *this;
+}
+
+bool FolderLock::is_known(const fs::path& folder)
+{
+  std::error_code error;
+  return fs::is_regular_file(folder / lock_name, error);
 }
 
 std::string FolderLock::holder(const fs::path& folder)

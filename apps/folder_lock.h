@@ -23,8 +23,11 @@ public:
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&& other) noexcept;
 
-  bool is_held() const { return number_ >= 0; }
+  /// True also where the file system has no locks.
+  bool is_held() const { return !file_.empty(); }
 
+  /// Whether a run has been in the folder, and holds it or was killed.
+  static bool is_known(const std::filesystem::path& folder);
   /// The run that holds the folder, in words; "" when none does. Makes no file.
   static std::string holder(const std::filesystem::path& folder);
 

@@ -2,14 +2,26 @@
 /// whole.
 #include "apps/case_scan.h"
 #include "apps/command_line.h"
+#include "apps/element_output.h"
+#include "apps/element_pictures.h"
+#include "apps/folder_lock.h"
 #include "apps/jobs.h"
+#include "apps/output_folder.h"
+#include "apps/pile_output.h"
 #include "apps/ranks.h"
 #include "dem/io/checkpoint.h"
 #include "dem/io/history.h"
 #include "dem/io/sample_file.h"
 #include "dem/io/table.h"
 
+#include <boost/property_tree/json_parser.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <iostream>
+#include <iterator>
+#include <optional>
 
 namespace mergel::apps {
 
@@ -24,10 +36,21 @@ void line(const std::string& name, const std::string& value)
   std::cout << "  " << padded << ' ' << value << '\n';
 }
 
+std::string megabytes(double bytes)
+{
+  return dem::shortest(std::floor(1e-2 * bytes) / 1e4) + " MB";
+}
+
 std::string size_text(const fs::path& file)
 {
-  return dem::shortest(1e-3 * static_cast<double>(fs::file_size(file) / 100) / 10.0) +
-         " MB";
+  return megabytes(static_cast<double>(fs::file_size(file)));
+}
+
+boost::property_tree::ptree read_json(const fs::path& file)
+{
+  boost::property_tree::ptree tree;
+  boost::property_tree::read_json(file.string(), tree);
+  return tree;
 }
 
 /// @throws InputError
@@ -79,29 +102,97 @@ std::string fault(Read&& read)
   return "";
 }
 
-/// False when something in it cannot be used.
-bool describe_folder(const fs::path& folder)
+/// "failure" of failed.json, which a run leaves that could not go on; nothing without one.
+std::optional<std::string> failure_in(const fs::path& folder)
 {
-  bool is_good = true;
-  std::cout << folder.string() << ": results folder, "
-            << (fs::exists(folder / "summary.json") ? "finished" : "not finished") << '\n';
-  const auto judge = [&](const std::string& name, const std::string& wrong,
-                         const std::string& good) {
-    is_good = is_good && wrong.empty();
+  std::error_code error;
+  if (!fs::exists(folder / "failed.json", error)) return {};
+  try {
+    return read_json(folder / "failed.json").get<std::string>("failure");
+  } catch (const std::exception& e) {
+    return std::string("failed.json cannot be read: ") + e.what();
+  }
+}
+
+std::string state_of(const fs::path& folder)
+{
+  if (const auto failure = failure_in(folder)) return "failed: " + *failure;
+  return fs::exists(folder / "summary.json") ? "finished" : "not finished";
+}
+
+/// Whether a file of VTK ends as one does.
+bool is_whole_vtk(const fs::path& file)
+{
+  constexpr std::streamoff n = 32;
+  const std::string end = "</VTKFile>";
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in ? std::streamoff(in.tellg()) : 0;
+  in.seekg(std::max<std::streamoff>(0, size - n));
+  const std::string tail{std::istreambuf_iterator<char>(in), {}};
+  return tail.find(end) != std::string::npos;
+}
+
+/// Results that a checkpoint counts on. @throws InputError
+void check_results(const fs::path& folder, const dem::Checkpoint& c)
+{
+  if (c.label.job == "pile") PileOutput::check(folder, c.state);
+  if (c.label.job != "element") return;
+  ElementHistory::check(folder / "history.csv", c.state);
+  ElementPictures::check(folder, c.state);
+}
+
+/// The lines on a results folder.
+class FolderReport {
+public:
+  explicit FolderReport(const fs::path& folder)
+      : folder_(folder), own_(own_files_in(folder))
+  {
+    if (own_.files.empty() && !FolderLock::is_known(folder))
+      throw InputError("mergel info " + folder.string() +
+                       ": is no results folder: it holds no file of mergel. Give the "
+                       "folder that a run wrote to, a sample or a checkpoint.");
+  }
+
+  /// False when something in it cannot be used.
+  bool print()
+  {
+    std::cout << folder_.string() << ": results folder, " << state_of(folder_) << '\n';
+    if (const std::string holder = FolderLock::holder(folder_); !holder.empty())
+      line("now", holder + " is writing there");
+    describe_case();
+    describe_history();
+    describe_sample_file();
+    describe_frames();
+    describe_summary();
+    describe_checkpoints();
+    return is_good_;
+  }
+
+private:
+  bool has(const char* name) const { return fs::exists(folder_ / name); }
+  void judge(const std::string& name, const std::string& wrong, const std::string& good)
+  {
+    is_good_ = is_good_ && wrong.empty();
     line(name, wrong.empty() ? good : wrong);
-  };
-  if (fs::exists(folder / "resolved.prm")) {
+  }
+
+  void describe_case()
+  {
+    if (!has("resolved.prm")) return;
     std::size_t n_keys = 0;
     const std::string wrong = fault([&] {
-      n_keys =
-          scan_case(read_case_text(folder / "resolved.prm"), "resolved.prm").entries.size();
+      n_keys = scan_case(read_case_text(folder_ / "resolved.prm"), "resolved.prm")
+                   .entries.size();
     });
     judge("case", wrong, "resolved.prm, " + std::to_string(n_keys) + " keys");
   }
-  if (fs::exists(folder / "history.csv")) {
+
+  void describe_history()
+  {
+    if (!has("history.csv")) return;
     dem::Table table;
     const std::string wrong =
-        fault([&] { table = dem::read_table(folder / "history.csv"); });
+        fault([&] { table = dem::read_table(folder_ / "history.csv"); });
     std::string last;
     if (table.n_rows > 0)
       last = ", the last at " + table.columns.front().name + " " +
@@ -112,32 +203,83 @@ bool describe_folder(const fs::path& folder)
           std::to_string(table.n_rows) + " records" + last +
               (table.is_last_line_cut ? "; a line is cut" : ""));
   }
-  if (fs::exists(folder / "sample.h5")) {
+
+  void describe_sample_file()
+  {
+    if (!has("sample.h5")) return;
     dem::Sample s;
-    const std::string wrong = fault([&] { s = dem::read_sample(folder / "sample.h5"); });
+    const std::string wrong = fault([&] { s = dem::read_sample(folder_ / "sample.h5"); });
     judge("sample", wrong.empty() ? "" : "sample.h5 " + wrong,
           std::to_string(s.packing.particles.size()) + " particles, " +
               std::to_string(s.bonding.pairs.size()) + " bonds, good");
   }
-  const auto checkpoints = dem::checkpoints_in(folder);
-  if (checkpoints.empty()) line("checkpoints", "none");
-  for (const fs::path& file : checkpoints) {
-    dem::Checkpoint c;
-    const std::string wrong = fault([&] { c = dem::read_checkpoint(file); });
-    judge("checkpoint", wrong.empty() ? "" : file.filename().string() + " " + wrong,
-          file.filename().string() + ", " + c.label.stage + ", step " +
-              std::to_string(c.label.step) + ", t = " + dem::shortest(1e3 * c.label.time) +
-              " ms, mergel " + c.label.program + ", good");
+
+  void describe_frames()
+  {
+    if (own_.frames.empty()) return;
+    std::string wrong;
+    for (const fs::path& frame : own_.frames)
+      if (wrong.empty() && fs::exists(frame) && !is_whole_vtk(frame))
+        wrong = frame.string() + ": is cut";
+    judge("fields", wrong, std::to_string(own_.frames.size()) + " files, none is cut");
   }
-  return is_good;
-}
+
+  void describe_summary()
+  {
+    if (!has("summary.json")) return;
+    std::string wrong;
+    try {
+      read_json(folder_ / "summary.json");
+    } catch (const std::exception& e) {
+      wrong = std::string("summary.json cannot be read: ") + e.what();
+    }
+    judge("summary", wrong, "summary.json, good");
+  }
+
+  void describe_checkpoints()
+  {
+    bool is_newest = true, has_any = false;
+    for (const fs::path& file : dem::checkpoints_in(folder_)) {
+      dem::Checkpoint c;
+      const std::string wrong = fault([&] { c = dem::read_checkpoint(file); });
+      if (!wrong.empty() && !fs::exists(fs::symlink_status(file)))
+        continue; // the run has removed it since
+      has_any = true;
+      judge("checkpoint", wrong.empty() ? "" : file.filename().string() + " " + wrong,
+            file.filename().string() + ", " + c.label.stage + ", step " +
+                std::to_string(c.label.step) +
+                ", t = " + dem::shortest(1e3 * c.label.time) + " ms, mergel " +
+                c.label.program + ", good");
+      if (!wrong.empty()) continue;
+      if (is_newest)
+        if (const std::string lacks = fault([&] { check_results(folder_, c); });
+            !lacks.empty())
+          judge("restart", lacks, "");
+      is_newest = false;
+    }
+    if (!has_any) line("checkpoints", "none");
+    double bytes = 0.0;
+    for (const fs::path& file : own_.aside) {
+      std::error_code gone;
+      const auto size = fs::file_size(file, gone);
+      if (!gone) bytes += static_cast<double>(size);
+    }
+    if (!own_.aside.empty())
+      line("set aside", std::to_string(own_.aside.size()) + " checkpoints (*.aside), " +
+                            megabytes(bytes));
+  }
+
+  const fs::path folder_;
+  const OwnFiles own_;
+  bool is_good_ = true;
+};
 
 int run_info(const fs::path& path)
 {
   bool is_good = true;
   on_first_rank([&] {
     if (fs::is_directory(path)) {
-      is_good = describe_folder(path);
+      is_good = FolderReport(path).print();
       return;
     }
     std::string as_checkpoint, as_sample;
@@ -158,7 +300,10 @@ int run_info(const fs::path& path)
 void help_info(std::ostream& out)
 {
   out << "  PATH  a sample, a checkpoint, or the results folder of a run\n\n"
-         "Exit code 1 when something there is damaged or no file of mergel.\n";
+         "Of a folder it says also which run is writing there now, why a run failed, what "
+         "is\n"
+         "set aside, and whether the newest checkpoint finds the results it counts on.\n"
+         "Exit code 1 when something there is damaged, missing or no file of mergel.\n";
 }
 
 std::function<int()> read_info(const std::vector<std::string>& arguments)

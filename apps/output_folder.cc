@@ -61,6 +61,26 @@ bool is_own_file(const fs::path& name)
          dem::is_checkpoint_name(name) || is_set_aside(name);
 }
 
+/// Refuse to begin again where a run ended, or could go on: its results would be lost.
+void require_unfinished(const fs::path& folder)
+{
+  std::error_code error;
+  std::string found;
+  if (fs::exists(folder / "summary.json", error))
+    found = "a finished run";
+  else
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      const fs::path name = entry->path().filename();
+      if (dem::is_checkpoint_name(name) || dem::is_checkpoint_name(name.stem()))
+        found = "a run with checkpoints"; // one set aside too
+    }
+  require(found.empty(),
+          "--restart " + folder.string() + ": holds " + found +
+              ", and this one would begin again. Choose another folder with --output, or "
+              "replace that run with --overwrite and without --restart.");
+}
+
 /// Number in particles_0012.vtp; the greatest there is for one beyond.
 std::uint64_t frame_of(const fs::path& name)
 {
@@ -161,6 +181,7 @@ void OutputFolder::check(const std::vector<fs::path>& inputs) const
                         "\". Choose another folder with --output.");
 
   if (!lock_.is_held()) require_no_run(folder_);
+  if (earlier_ == Earlier::begun) require_unfinished(folder_);
   const std::vector<fs::path> earlier = left_by_earlier_run();
   if (earlier.empty() || earlier_ == Earlier::go_on) return;
   if (earlier_ == Earlier::keep)
@@ -202,6 +223,23 @@ void OutputFolder::commit(const std::vector<fs::path>& inputs)
   }
   const fs::path fields = folder_ / own_folder;
   if (is_real_folder(fields)) fs::remove(fields, error); // only when it is empty
+}
+
+OwnFiles own_files_in(const fs::path& folder)
+{
+  OwnFiles found;
+  std::error_code error; // what cannot be looked into holds nothing for us
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path name = entry->path().filename();
+    if (is_own_file(final_name(name))) found.files.push_back(entry->path());
+    if (is_set_aside(name)) found.aside.push_back(entry->path());
+  }
+  for (fs::directory_iterator entry(folder / own_folder, error), end;
+       !error && entry != end; entry.increment(error))
+    if (is_own_field(entry->path().filename())) found.frames.push_back(entry->path());
+  std::sort(found.frames.begin(), found.frames.end());
+  return found;
 }
 
 std::vector<fs::path> OutputFolder::cut_back(std::size_t n_frames, std::uint64_t step) const

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 namespace mergel::apps {
@@ -14,6 +15,7 @@ namespace mergel::apps {
 enum class Earlier {
   keep,      ///< refuse such a folder
   overwrite, ///< remove what mergel wrote there, and nothing else
+  begun,     ///< the same, but refuse a run that ended or has a checkpoint: it could go on
   go_on      ///< go on with that run: nothing is in the way
 };
 
@@ -31,13 +33,16 @@ public:
 
   const std::filesystem::path& path() const { return folder_; }
 
+  /// The folder is locked already: before it was looked at.
+  void hold(FolderLock lock) { lock_ = std::move(lock); }
+
   /// Refuse a folder that cannot be used; changes nothing on the disk.
   ///
   /// @param inputs files that the run reads later: they must not be among those that
   ///               commit() removes
   /// @throws InputError when something is in its way, it cannot be created or written, it
-  ///         holds an earlier run that is to be kept, another run is writing there, or an
-  ///         input would be removed
+  ///   holds an earlier run that is to be kept, or one that is not only begun, another
+  ///   run is writing there, or an input would be removed
   void check(const std::vector<std::filesystem::path>& inputs = {}) const;
 
   /// check() again, create the folder, keep other runs out of it while this object lives, and
@@ -59,7 +64,15 @@ private:
 
   std::filesystem::path folder_;
   Earlier earlier_;
-  FolderLock lock_; ///< from commit() on
+  FolderLock lock_; ///< from hold() or commit() on
 };
+
+/// What is in a folder of ours, for those who only look.
+struct OwnFiles {
+  std::vector<std::filesystem::path> files;  ///< by the names above; temporary ones too
+  std::vector<std::filesystem::path> frames; ///< finished ones, in fields/
+  std::vector<std::filesystem::path> aside;  ///< checkpoints set aside, among the files
+};
+OwnFiles own_files_in(const std::filesystem::path& folder);
 
 } // namespace mergel::apps

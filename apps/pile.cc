@@ -5,6 +5,7 @@
 #include "apps/pile_summary.h"
 #include "apps/ranks.h"
 #include "apps/restart.h"
+#include "apps/shared_folder.h"
 #include "apps/specimen.h"
 
 #include <algorithm>
@@ -75,13 +76,14 @@ int run_pile(const JobOptions& options)
   const double start = dem::wall_clock();
   CaseFile file;
   PileCase c;
+  FolderLock lock = hold_restarted(options);
   std::optional<Restart> restart = take_up(file, c, options, "pile", free_keys);
   if (restart) {
     on_every_rank([&] { check_new_end(file, c, *restart); });
     std::cout << report(*restart) << '\n';
   }
   const auto inputs = inputs_of(options, restart, {c.rock.sample});
-  OutputFolder folder = folder_of(options, restart, inputs);
+  OutputFolder folder = folder_of(options, restart, inputs, std::move(lock));
   if (restart)
     on_first_rank([&] { PileOutput::check(restart->folder, restart->checkpoint.state); });
 
@@ -102,7 +104,8 @@ int run_pile(const JobOptions& options)
       go_on_in(folder, inputs, file, *restart);
       output.emplace(folder.path(), c, restart->folder, state);
     });
-    restart->file = bring_along(restart->file, folder.path());
+    require_shared(folder.path());
+    restart->file = folder.path() / restart->file.filename(); // brought along
   } else {
     const dem::Sample sample = obtain_sample(file, c.rock);
     std::cout << far_field.summary() << '\n' << report(c.rock, sample) << '\n';
@@ -112,6 +115,7 @@ int run_pile(const JobOptions& options)
       dem::write_sample(folder.path() / "sample.h5", sample);
       output.emplace(folder.path(), c);
     });
+    require_shared(folder.path());
     coupled.emplace(c.rock, sample, std::move(far_field), std::move(interface));
   }
 

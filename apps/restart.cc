@@ -101,6 +101,18 @@ fs::path folder_to_restart(const fs::path& place)
   return place.parent_path().empty() ? fs::path(".") : place.parent_path();
 }
 
+FolderLock hold_restarted(const JobOptions& options)
+{
+  FolderLock lock;
+  on_first_rank([&] {
+    std::error_code error; // a folder that is not there holds no checkpoint
+    if (!options.restart.empty() && fs::is_directory(options.output, error) &&
+        fs::equivalent(options.output, folder_to_restart(options.restart), error))
+      lock = FolderLock(options.output);
+  });
+  return lock;
+}
+
 std::optional<Restart> find_restart(const fs::path& place, const std::string& job)
 {
   std::optional<Restart> found;
@@ -118,6 +130,7 @@ std::optional<Restart> find_restart(const fs::path& place, const std::string& jo
       throw InputError("--restart " + file + ": " + e.what());
     }
   });
+  require_same_bytes(found->checkpoint.sum, "--restart " + file);
   return found;
 }
 
@@ -181,38 +194,13 @@ std::vector<fs::path> inputs_of(const JobOptions& options,
   return inputs;
 }
 
-namespace {
-
-/// Refuse to begin again where a run ended, or could go on: its results would be lost.
-void require_unfinished(const fs::path& folder)
-{
-  std::error_code error;
-  std::string found;
-  if (fs::exists(folder / "summary.json", error))
-    found = "a finished run";
-  else
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-      const fs::path name = entry->path().filename();
-      if (dem::is_checkpoint_name(name) || dem::is_checkpoint_name(name.stem()))
-        found = "a run with checkpoints"; // one set aside too
-    }
-  require(found.empty(),
-          "--restart " + folder.string() + ": holds " + found +
-              ", and this one would begin again. Choose another folder with --output, or "
-              "replace that run with --overwrite and without --restart.");
-}
-
-} // namespace
-
 OutputFolder folder_to_begin_in(const JobOptions& options)
 {
   std::error_code error;
   const bool begins_again =
       !options.restart.empty() && fs::equivalent(options.output, options.restart, error);
-  if (begins_again) require_unfinished(options.output);
-  return {options.output,
-          options.overwrite || begins_again ? Earlier::overwrite : Earlier::keep};
+  if (begins_again) return {options.output, Earlier::begun};
+  return {options.output, options.overwrite ? Earlier::overwrite : Earlier::keep};
 }
 
 namespace {
@@ -231,43 +219,48 @@ OutputFolder chosen_folder(const JobOptions& options, const std::optional<Restar
 } // namespace
 
 OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart,
-                       const std::vector<fs::path>& inputs)
+                       const std::vector<fs::path>& inputs, FolderLock lock)
 {
   OutputFolder folder(options.output, Earlier::keep);
   on_first_rank([&] {
     folder = chosen_folder(options, restart);
+    folder.hold(std::move(lock));
     folder.check(inputs);
   });
   return folder;
 }
 
+namespace {
+
+/// Bring the checkpoint into the folder where the run goes on, if that is another.
+void bring_along(const fs::path& checkpoint, const fs::path& folder)
+{
+  const fs::path there = folder / checkpoint.filename();
+  std::error_code error;
+  if (fs::equivalent(checkpoint, there, error)) return;
+  dem::replace_file(there, [&](const fs::path& file) {
+    std::error_code failed;
+    fs::copy_file(checkpoint, file, fs::copy_options::overwrite_existing, failed);
+    if (failed)
+      throw NumericalError(there.string() +
+                           ": the checkpoint cannot be brought along: " + failed.message() +
+                           ". Check the permissions of both folders and the free space, "
+                           "or go on in the folder where it is, without --output.");
+  });
+}
+
+} // namespace
+
 void go_on_in(OutputFolder& folder, const std::vector<std::filesystem::path>& inputs,
               const CaseFile& file, const Restart& restart)
 {
   folder.commit(inputs);
+  // Without it the folder would look like that of a run that has only begun.
+  bring_along(restart.file, folder.path());
   const std::size_t n_frames = Frames::count(restart.checkpoint.state);
   for (const auto& set_aside : folder.cut_back(n_frames, restart.checkpoint.label.step))
     std::cout << "set aside: " << set_aside.string() << '\n';
   file.write_resolved(folder.path() / "resolved.prm");
-}
-
-fs::path bring_along(const fs::path& checkpoint, const fs::path& folder)
-{
-  const fs::path there = folder / checkpoint.filename();
-  on_first_rank([&] {
-    std::error_code error;
-    if (fs::equivalent(checkpoint, there, error)) return;
-    dem::replace_file(there, [&](const fs::path& file) {
-      std::error_code failed;
-      fs::copy_file(checkpoint, file, fs::copy_options::overwrite_existing, failed);
-      if (failed)
-        throw NumericalError(there.string() + ": the checkpoint cannot be brought along: " +
-                             failed.message() +
-                             ". Check the permissions of both folders and the free space, "
-                             "or go on in the folder where it is, without --output.");
-    });
-  });
-  return there;
 }
 
 std::string report(const Restart& restart)

@@ -5,11 +5,19 @@
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
 #include "apps/ranks.h"
+#include "apps/same_input.h"
 #include "dem/io/checkpoint.h"
 
 #include <optional>
 
 namespace mergel::apps {
+
+/// Keep other runs out of the folder that is to go on, before its checkpoints are looked
+/// at: a run that is just ending may write another one. Nothing is held when --restart and
+/// --output name different folders, or none that is there. Collective; the first rank
+/// holds it.
+/// @throws InputError naming the run that writes there
+FolderLock hold_restarted(const JobOptions& options);
 
 /// What a run goes on from.
 struct Restart {
@@ -25,7 +33,7 @@ struct Restart {
 /// first rank chooses for all.
 /// @throws InputError when what is there cannot be read, naming an older good one beside
 ///   it; when a newer one cannot be read and is not damaged: it may be whole, for another
-///   user or program; when it is of another job
+///   user or program; when it is of another job, or another file for another rank
 std::optional<Restart> find_restart(const std::filesystem::path& place,
                                     const std::string& job);
 
@@ -47,7 +55,8 @@ void check_case(const CaseFile& file, Restart& restart,
 /// Read the case of a job that writes checkpoints, and find what it goes on from, if it
 /// does. Collective.
 /// @param free the keys that a restart may change, "Section/key"
-/// @throws InputError as the functions above, and as complete() of the case
+/// @throws InputError as the functions above, and as complete() of the case; when the ranks
+///   read different cases
 template <class Case>
 std::optional<Restart> take_up(CaseFile& file, Case& c, const JobOptions& options,
                                const std::string& job, const std::vector<std::string>& free)
@@ -59,6 +68,7 @@ std::optional<Restart> take_up(CaseFile& file, Case& c, const JobOptions& option
     complete(file, c);
     if (restart) check_case(file, *restart, free);
   });
+  require_same_case(file);
   return restart;
 }
 
@@ -70,27 +80,22 @@ inputs_of(const JobOptions& options, const std::optional<Restart>& restart,
 
 /// For a run that begins again: the folder of an earlier run may be used that was ended before
 /// its first checkpoint.
-/// @throws InputError when the earlier run was finished or has a checkpoint
 OutputFolder folder_to_begin_in(const JobOptions& options);
 
 /// The folder of the run, that of the checkpoint or one to begin in, looked at by the first
 /// rank. Collective.
-/// @throws InputError as folder_to_begin_in() and OutputFolder::check()
+/// @param lock from hold_restarted()
+/// @throws InputError as OutputFolder::check()
 OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart,
-                       const std::vector<std::filesystem::path>& inputs);
+                       const std::vector<std::filesystem::path>& inputs, FolderLock lock);
 
-/// Make a folder ready to go on in: what the run wrote behind the checkpoint goes, newer
-/// checkpoints are set aside, which is said, and the resolved case is written. On the first
-/// rank.
+/// Make a folder ready to go on in: the checkpoint is brought along first, if it is
+/// another folder, so that a run that is killed on the way can never be taken for one
+/// without; what the run wrote behind the checkpoint goes, newer checkpoints are set
+/// aside, which is said, and the resolved case is written. On the first rank.
 /// @param inputs as of OutputFolder::commit()
 void go_on_in(OutputFolder& folder, const std::vector<std::filesystem::path>& inputs,
               const CaseFile& file, const Restart& restart);
-
-/// Bring the checkpoint into the folder where the run goes on, if that is another: a run that
-/// ends before its own first one can be restarted from there too. Returns where it is.
-/// Collective.
-std::filesystem::path bring_along(const std::filesystem::path& checkpoint,
-                                  const std::filesystem::path& folder);
 
 /// Whether the case that goes on has another value for this key.
 bool has_changed(const Restart& restart, const std::string& section,

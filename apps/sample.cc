@@ -117,6 +117,8 @@ int run_sample(const JobOptions& options)
   bool is_pile = false;
   on_first_rank([&] { folder = folder_to_begin_in(options); });
   on_every_rank([&] { is_pile = is_pile_case(options); });
+  MPI_Bcast(&is_pile, 1, MPI_CXX_BOOL, 0,
+            MPI_COMM_WORLD); // they compare what they read below
   CaseFile file;
   if (is_pile) {
     PileCase c;
@@ -126,6 +128,7 @@ int run_sample(const JobOptions& options)
       complete(file, c);
       refuse_sample(file, c.rock);
     });
+    require_same_case(file);
     const auto inputs = inputs_of(options, std::nullopt, {c.rock.table});
     on_first_rank([&] { folder.check(inputs); });
     make_far_field(c.rock); // sets the faces around the side
@@ -139,6 +142,7 @@ int run_sample(const JobOptions& options)
     refuse_sample(file, c.specimen);
     complete(file, c.specimen, c.contact);
   });
+  require_same_case(file);
   const auto inputs = inputs_of(options, std::nullopt, {c.specimen.table});
   on_first_rank([&] { folder.check(inputs); });
   make(file, c.specimen, folder, inputs);

@@ -2,6 +2,7 @@
 
 #include "apps/progress.h"
 #include "apps/ranks.h"
+#include "apps/same_input.h"
 #include "dem/io/history.h"
 
 #include <sstream>
@@ -26,6 +27,7 @@ dem::Sample read_or_make(const CaseFile& file, const SpecimenKeys& k)
                     differs +
                         "; make a new sample, or clear the key to make it for this run");
     });
+    require_same_bytes(sample.sum, "Specimen/file = " + k.sample.string());
     return sample;
   }
 

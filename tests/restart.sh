@@ -150,6 +150,20 @@ for arguments in "--restart b" "--restart b/$older" "case.prm"; do
   [ ! -e none ] || fail "$arguments, seen by one rank of two: something was written"
 done
 
+# Nor what they read differently: an edited case, another checkpoint under the same name.
+sed 's/set friction *= .*/set friction = 0.3/' case.prm >elsewhere/case.prm
+[ "$(code_of blind case.prm --output none)" -eq 1 ] || fail "two cases: $(cat log)"
+grep -q '^rank 1: Pile/friction is 0.3 here and 0.2 on the first rank' log || fail "two cases: $(cat log)"
+cp -r b elsewhere/b
+cp "$(newest a)" "elsewhere/b/$older"
+[ "$(code_of blind --restart b --output none)" -eq 1 ] || fail "two checkpoints: $(cat log)"
+grep -q '^rank 1: --restart b/.*holds something else here' log || fail "two checkpoints: $(cat log)"
+[ ! -e none ] || fail "read differently: something was written"
+# A results folder of its own on a node is told before the first step, not at the first checkpoint.
+[ "$(code_of blind "$work/case.prm" "${tiny[@]}" --output none)" -eq 1 ] || fail "a folder of its own: $(cat log)"
+grep -q '^rank 1: output folder none: rank 1 on .* does not see the file that rank 0' log || fail "a folder of its own: $(cat log)"
+rm -rf none elsewhere/*
+
 # One run at a time in a folder; a run that was killed is in nobody's way.
 rm -rf g; cp -r b g
 "$mergel" pile --restart g >log_of_first 2>&1 &
@@ -164,8 +178,32 @@ pile --restart g >log 2>&1 || fail "after a killed run: $(tail -3 log)"
 same g
 [ ! -e g/.mergel.lock ] || fail "the lock is left over"
 
-# Another folder can be restarted from the start: the checkpoint is brought along.
 name=$(basename "$(newest b)")
+# A run that is just ending writes another checkpoint: the next one waits, then goes on from that.
+rm -rf g; cp -r b g
+"$mergel" pile --restart g --set "Output/checkpoint every=10 steps" >log_of_first 2>&1 &
+first=$!
+for _ in $(seq 3000); do [ "$(basename "$(newest g)")" = "$name" ] || break; sleep 0.02; done
+kill -STOP $first
+before=$(newest g)
+"$mergel" pile --restart g --walltime "0.1 s" >log 2>&1 &
+next=$!
+sleep 1
+kill -TERM $first
+kill -CONT $first
+wait $first || true
+wait $next || true
+taken=$(grep -o 'checkpoint g/checkpoint_[0-9]*.h5' log_of_first | tail -1)
+[ "${taken#checkpoint }" != "$before" ] || fail "the ending run wrote none: $(cat log_of_first)"
+grep -q "^restart from ${taken#checkpoint }: " log || fail "not from ${taken#checkpoint }: $(cat log)"
+grep -q 'set aside' log && fail "the newer checkpoint was set aside: $(cat log)"
+
+# Into another folder the checkpoint comes first: without it the next restart would begin again.
+mkdir -p h/resolved.prm
+[ "$(code_of pile --restart b --output h)" -eq 2 ] || fail "a folder in the way: $(cat log)"
+[ "$(checkpoints h)" -eq 1 ] || fail "the checkpoint came late: $(ls h)"
+
+# Another folder can be restarted from the start: the checkpoint is brought along.
 [ "$(code_of pile --restart b --output f --set "Output/checkpoint every=never" --walltime "0.1 s")" -eq 2 ] ||
   fail "another folder, ended at once: $(tail -3 log)"
 [ "$(checkpoints f)" -gt 0 ] || fail "no checkpoint came along: $(ls f)"
@@ -185,5 +223,27 @@ rm -rf e; cp -r b e; rm e/history.csv
 long=$(printf 'x%.0s' {1..300})
 [ "$(code_of pile --restart "$long")" -eq 1 ] && grep -q 'File name too long' log || fail "a long name: $(cat log)"
 [ "$(code_of pile --restart nowhere)" -eq 1 ] && grep -q 'holds neither a checkpoint nor' log || fail "nowhere: $(cat log)"
+# mergel info: a folder of another, a failed run, a lost frame, what is set aside and who writes.
+[ "$(code_of "$mergel" info elsewhere)" -eq 1 ] && grep -q 'is no results folder' log || fail "info of another's folder: $(cat log)"
+rm -rf e; cp -r whole e
+"$mergel" info e >info || fail "info: $(cat info)"
+grep -q 'summary.json, good' info && grep -q 'results folder, finished' info || fail "info: $(cat info)"
+frame=$(ls e/fields/bonds_* | tail -1)
+head -c 500 "$frame" >cut; mv cut "$frame"
+[ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q "$frame: is cut" log || fail "info of a cut frame: $(cat log)"
+rm -rf e; cp -r whole e
+echo '{ "work' >e/summary.json
+[ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q 'summary.json cannot be read' log || fail "info of a cut summary: $(cat log)"
+rm e/summary.json; echo '{ "failure": "the sides are unstable" }' >e/failed.json
+"$mergel" info e >info && grep -q 'failed: the sides are unstable' info || fail "info of a failed run: $(cat info)"
+rm -rf e; cp -r a e
+rm "$(ls e/fields/bonds_* | head -1)"
+[ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q 'bonds_0000.vtp: is missing' log || fail "info of a lost frame: $(cat log)"
+rm -rf e; cp -r b e; cp "e/$name" "e/$name.aside"
+flock e/.mergel.lock sleep 5 &
+sleep 0.5
+"$mergel" info e >info || fail "info: $(cat info)"
+grep -q 'is writing there' info && grep -q 'set aside *1 checkpoints' info || fail "info: $(cat info)"
+wait
 "$mergel" info sample.h5 >info && grep -q 'porosity' info || fail "info of a sample: $(cat info)"
 echo "restart: all holds"

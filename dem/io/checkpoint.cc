@@ -53,7 +53,7 @@ void write_checkpoint(const fs::path& file, const CheckpointLabel& label, State 
 Checkpoint read_checkpoint(const fs::path& file)
 {
   Checkpoint c;
-  c.state = read_state(file, kind, version);
+  c.state = read_state(file, kind, version, &c.sum);
   c.label = {c.state.text("label_program"),
              c.state.text("label_job"),
              c.state.text("label_stage"),

@@ -18,6 +18,7 @@ struct CheckpointLabel {
 struct Checkpoint {
   CheckpointLabel label;
   State state;
+  std::uint64_t sum = 0; ///< that seals the file it was read from
 };
 
 /// Name of the checkpoint of this step in its folder: names ascend with steps.

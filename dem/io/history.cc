@@ -51,8 +51,9 @@ void check_history(const std::filesystem::path& file, const HistoryMark& mark)
 }
 
 History::History(std::filesystem::path file, const std::vector<std::string>& columns)
-    : file_(std::move(file)), columns_(columns), out_(file_, std::ios::binary)
+    : file_(std::move(file)), columns_(columns)
 {
+  open(std::ios::trunc);
   mark_.sum = fnv_1a("");
   std::string header;
   for (std::size_t c = 0; c < columns_.size(); ++c)
@@ -65,8 +66,18 @@ History::History(std::filesystem::path file, const std::vector<std::string>& col
     : file_(std::move(file)), columns_(columns), mark_(mark)
 {
   replace_file(file_, begun(earlier, mark));
-  out_.open(file_, std::ios::binary | std::ios::app);
-  if (!out_) throw NumericalError(file_.string() + ": cannot be written");
+  open(std::ios::app);
+}
+
+void History::open(std::ios::openmode mode)
+{
+  errno = 0; // some failures of a stream have no reason of the system's
+  out_.open(file_, std::ios::binary | std::ios::out | mode);
+  if (out_) return;
+  const std::string reason = errno == 0 ? "" : std::generic_category().message(errno);
+  throw NumericalError(file_.string() + ": cannot be written" +
+                       (reason.empty() ? "" : ": " + reason) +
+                       ". Check that the folder exists and its permissions.");
 }
 
 void History::write(const std::string& line)

@@ -18,7 +18,7 @@ struct HistoryMark {
 class History {
 public:
   /// @param columns "name [unit]" each
-  /// @throws NumericalError when the file cannot be written
+  /// @throws NumericalError with the system's reason when the file cannot be written
   History(std::filesystem::path file, const std::vector<std::string>& columns);
 
   /// Go on where `earlier`, which may be `file` itself, stood at the mark: what it holds
@@ -36,6 +36,7 @@ public:
   HistoryMark mark() const;
 
 private:
+  void open(std::ios::openmode mode);
   void write(const std::string& line);
 
   std::filesystem::path file_;

@@ -2,6 +2,7 @@
 
 #include "dem/io/atomic_file.h"
 #include "dem/io/hdf5.h"
+#include "dem/io/open_bytes.h"
 #include "dem/io/seal.h"
 
 #include <algorithm>
@@ -140,18 +141,15 @@ void check(const Columns& c)
   }
 }
 
-Columns read_columns(const std::filesystem::path& path)
+Columns read_columns(const std::filesystem::path& path, std::uint64_t& sum)
 {
   const Quiet quiet;
-  unsealed(path, sample_seal);
-  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (id < 0)
-    throw InputError("is damaged or truncated; make it again with `mergel sample`");
-  const Handle file(id, H5Fclose, "open it");
-
+  std::string bytes = unsealed(path, sample_seal, &sum);
   Columns c;
   int found = 0;
   try {
+    const OpenBytes memory(bytes, path); // what is read is what was summed
+    const hid_t file = memory.file();
     read_attribute(file, "version", H5T_NATIVE_INT, &found);
     if (found != version)
       throw InputError("has sample format " + std::to_string(found) +
@@ -193,8 +191,8 @@ void write_sample(const std::filesystem::path& file, const Sample& sample)
 
 Sample read_sample(const std::filesystem::path& file)
 {
-  const Columns c = read_columns(file);
   Sample s;
+  const Columns c = read_columns(file, s.sum);
   for (std::size_t i = 0; i < c.R.size(); ++i) {
     Body b;
     b.x = {c.x[3 * i], c.x[3 * i + 1], c.x[3 * i + 2]};

@@ -3,6 +3,7 @@
 
 #include "dem/bonding.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -17,6 +18,7 @@ struct Sample {
   /// What fixed it: (key, value) in a fixed order, compared word for word when it is
   /// reused.
   std::vector<std::pair<std::string, std::string>> recipe;
+  std::uint64_t sum = 0; ///< that seals the file it was read from; 0 when it was made
 };
 
 /// Datasets `x` (N x 3, m), `R` (N, m), `m` (N, kg), `S` (N), `bonds` (N_bonds x 2, ids),

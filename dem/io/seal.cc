@@ -14,7 +14,9 @@ std::string mark_of(const Seal& seal)
   return "mergel " + seal.kind + ", " + seal.sum + " ";
 }
 
-std::string all_bytes(const std::filesystem::path& file)
+} // namespace
+
+std::string bytes_of(const std::filesystem::path& file)
 {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   const std::streamoff size = in ? std::streamoff(in.tellg()) : -1;
@@ -25,8 +27,6 @@ std::string all_bytes(const std::filesystem::path& file)
   if (!in) throw InputError("cannot be read whole");
   return bytes;
 }
-
-} // namespace
 
 std::uint64_t fnv_1a(std::string_view bytes, std::uint64_t start)
 {
@@ -69,32 +69,35 @@ std::string sealed(std::string bytes, const Seal& seal)
   return std::move(bytes) + mark_of(seal) + sum;
 }
 
-void seal(const std::filesystem::path& file, const Seal& seal)
+void seal(const std::filesystem::path& file, std::string_view bytes, const Seal& seal)
 {
-  const std::string sum = hexadecimal(seal.of(all_bytes(file)));
+  const std::string sum = hexadecimal(seal.of(bytes));
   std::ofstream out(file, std::ios::binary | std::ios::app);
   out << mark_of(seal) << sum;
   out.flush();
   if (!out) throw NumericalError(file.string() + ": cannot be written; is the disk full?");
 }
 
-std::string unsealed(const std::filesystem::path& file, const Seal& seal)
+std::string unsealed(const std::filesystem::path& file, const Seal& seal,
+                     std::uint64_t* sum)
 {
   std::error_code error; // a name too long, a folder that may not be entered
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw InputError("there is no such file");
   if (!std::filesystem::is_regular_file(status)) throw InputError("is not a file");
-  std::string bytes = all_bytes(file);
+  std::string bytes = bytes_of(file);
   const std::string hdf5 = "\x89HDF\r\n\x1a\n", mark = mark_of(seal);
   if (bytes.compare(0, hdf5.size(), hdf5) != 0)
     throw DamagedFile("is no " + seal.kind + ": it is not an HDF5 file; " + seal.remedy);
   const std::size_t tail = mark.size() + digits;
   if (bytes.size() < tail || bytes.compare(bytes.size() - tail, mark.size(), mark) != 0)
     throw DamagedFile("is no " + seal.kind + ", or is truncated; " + seal.remedy);
-  const std::string sum = bytes.substr(bytes.size() - digits);
+  const std::string told = bytes.substr(bytes.size() - digits);
   bytes.resize(bytes.size() - tail);
-  if (sum != hexadecimal(seal.of(bytes)))
+  const std::uint64_t found = seal.of(bytes);
+  if (told != hexadecimal(found))
     throw DamagedFile("is damaged (its checksum does not match); " + seal.remedy);
+  if (sum) *sum = found;
   return bytes;
 }
 

@@ -37,12 +37,17 @@ struct Seal {
 
 std::string sealed(std::string bytes, const Seal& seal);
 
-/// Append the seal. @throws NumericalError
-void seal(const std::filesystem::path& file, const Seal& seal);
+/// All that a file holds, without a look at it. @throws InputError, without its name
+std::string bytes_of(const std::filesystem::path& file);
+
+/// Append the seal to a file that holds these bytes. @throws NumericalError
+void seal(const std::filesystem::path& file, std::string_view bytes, const Seal& seal);
 
 /// The data of a sealed file, the seal taken off.
+/// @param sum if not null, becomes their sum
 /// @throws DamagedFile, without the file's name, when it was not sealed so, or was changed
 ///   since; InputError when it cannot be read
-std::string unsealed(const std::filesystem::path& file, const Seal& seal);
+std::string unsealed(const std::filesystem::path& file, const Seal& seal,
+                     std::uint64_t* sum = nullptr);
 
 } // namespace mergel::dem

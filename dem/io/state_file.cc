@@ -2,16 +2,13 @@
 
 #include "dem/io/atomic_file.h"
 #include "dem/io/hdf5.h"
+#include "dem/io/open_bytes.h"
 #include "dem/io/seal.h"
+#include "dem/io/shared_file.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <system_error>
-
-#include <fcntl.h>
-#include <unistd.h>
 
 namespace mergel::dem {
 
@@ -57,56 +54,8 @@ void all_or_none(const Domain& domain, F&& f)
   agree(domain, wrong);
 }
 
-[[noreturn]] void fail(const fs::path& file)
-{
-  throw NumericalError(file.string() +
-                       ": cannot be written: " + std::generic_category().message(errno));
-}
-
-/// An open file that is closed on every way out.
-class Descriptor {
-public:
-  Descriptor(const fs::path& path, const fs::path& file)
-      : file_(file), number_(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666))
-  {
-    if (number_ < 0) fail(file_);
-  }
-  ~Descriptor() { ::close(number_); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  /// Take room on the disk. What there is no room for is refused at once: then nothing need
-  /// be written. A file that grows by it is held against the limit on its size too.
-  enum class Size { grows, stays };
-  void require_room(std::size_t bytes, Size size)
-  {
-    const int mode = size == Size::stays ? FALLOC_FL_KEEP_SIZE : 0;
-    if (::fallocate(number_, mode, 0, static_cast<off_t>(bytes)) != 0 &&
-        (errno == ENOSPC || errno == EFBIG || errno == EDQUOT))
-      fail(file_);
-  }
-  void write(const char* from, std::size_t bytes, std::uint64_t at)
-  {
-    while (bytes > 0) {
-      const ssize_t written = ::pwrite(number_, from, bytes, static_cast<off_t>(at));
-      if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(file_);
-      from += written;
-      bytes -= static_cast<std::size_t>(written);
-      at += static_cast<std::uint64_t>(written);
-    }
-  }
-  void flush()
-  {
-    if (::fsync(number_) != 0 && errno != EINVAL) fail(file_); // EINVAL: cannot be flushed
-  }
-
-private:
-  const fs::path file_;
-  int number_;
-};
-
 constexpr std::size_t room_for_descriptions = 65536;
+constexpr double patience = 5.0; ///< with a slow network file system [s]
 
 /// Describe the arrays, of so many rows each; returns where the rows of each begin.
 std::vector<std::uint64_t> lay_out(const fs::path& path, const std::string& kind,
@@ -176,29 +125,6 @@ StateArray read_any(hid_t file, const std::string& name)
   throw NumericalError("the type is wrong of " + name);
 }
 
-/// Lets HDF5 read a file's bytes where they are, instead of two copies of them.
-void read_in_place(hid_t access, std::string& bytes)
-{
-  H5FD_file_image_callbacks_t calls = {};
-  calls.udata = &bytes;
-  calls.image_malloc = [](std::size_t size, H5FD_file_image_op_t, void* held) -> void* {
-    auto& all = *static_cast<std::string*>(held);
-    return size == all.size() ? all.data() : nullptr;
-  };
-  calls.image_memcpy = [](void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) {
-    return to; // it is there
-  };
-  calls.image_realloc = [](void*, std::size_t, H5FD_file_image_op_t, void*) -> void* {
-    return nullptr; // what is read does not grow
-  };
-  calls.image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
-  calls.udata_copy = [](void* held) { return held; };
-  calls.udata_free = [](void*) -> herr_t { return 0; };
-  if (H5Pset_file_image_callbacks(access, &calls) < 0 ||
-      H5Pset_file_image(access, bytes.data(), bytes.size()) < 0)
-    throw NumericalError("HDF5 cannot read from memory");
-}
-
 herr_t add_name(hid_t, const char* name, const H5L_info_t*, void* names)
 {
   static_cast<std::vector<std::string>*>(names)->emplace_back(name);
@@ -261,35 +187,51 @@ void write_state(const fs::path& file, const std::string& kind, int version,
     bytes += rows[place++] * array.columns *
              std::visit([](const auto& v) { return sizeof(v[0]); }, array.values);
 
+  const Writer me = this_writer(domain);
   const auto write = [&](const fs::path& path) {
     std::vector<std::uint64_t> begin;
+    std::vector<FileMark> mark;
     all_or_none(domain, [&] {
       if (domain.rank() != 0) return;
       fs::remove(path); // of a run that was killed
-      Descriptor(path, file).require_room(bytes, Descriptor::Size::grows);
+      SharedFile(path, file, SharedFile::Way::make)
+          .require_room(bytes, SharedFile::Size::grows);
       begin = lay_out(path, kind, version, mine, rows);
       // HDF5 begins anew and gives the room back: take it again before the rows come.
-      Descriptor(path, file).require_room(bytes, Descriptor::Size::stays);
+      SharedFile made(path, file, SharedFile::Way::find);
+      made.require_room(bytes, SharedFile::Size::stays);
+      if (!domain.is_alone()) mark.push_back(made.mark(me));
     });
     begin = domain.gather(begin);
+    mark = domain.gather(mark);
+    std::vector<Piece> pieces;
     all_or_none(domain, [&] {
-      Descriptor out(path, file);
+      if (domain.rank() != 0) require_mark(path, file, mark.front(), me, patience);
+      SharedFile out(path, file, SharedFile::Way::find);
       std::size_t k = 0;
       for (const auto& [name, array] : mine.arrays()) {
         const std::uint64_t first = before[k] * array.columns; // number of mine
         std::visit(
             [&](const auto& v) {
               const std::size_t size = sizeof(v[0]);
-              out.write(reinterpret_cast<const char*>(v.data()), size * v.size(),
-                        begin[k] + first * size);
+              const std::string_view part{reinterpret_cast<const char*>(v.data()),
+                                          size * v.size()};
+              const std::uint64_t at = begin[k] + first * size;
+              out.write(part, at);
+              if (!part.empty() && !domain.is_alone())
+                pieces.push_back({at, part.size(), sum_of_words(part), me});
             },
             array.values);
         ++k;
       }
       if (!domain.is_alone()) out.flush();
     });
+    pieces = domain.gather(pieces);
     all_or_none(domain, [&] {
-      if (domain.rank() == 0) seal(path, seal_of(kind));
+      if (domain.rank() != 0) return;
+      if (!mark.empty())
+        SharedFile(path, file, SharedFile::Way::find).take_off(mark.front());
+      seal(path, read_back(path, file, pieces), seal_of(kind));
     });
   };
   if (domain.rank() != 0) {
@@ -308,20 +250,17 @@ void write_state(const fs::path& file, const std::string& kind, int version,
   agree(domain, wrong);
 }
 
-State read_state(const fs::path& path, const std::string& kind, int version)
+State read_state(const fs::path& path, const std::string& kind, int version,
+                 std::uint64_t* sum)
 {
   using namespace hdf5;
   const Quiet quiet;
   const Seal seal = seal_of(kind);
-  std::string bytes = unsealed(path, seal);
+  std::string bytes = unsealed(path, seal, sum);
   State state;
   try {
-    // From memory: what is read is what was summed. HDF5 wants a name that no file has.
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "choose an access");
-    H5Pset_fapl_core(access, 1 << 20, false);
-    read_in_place(access, bytes);
-    const Handle file(H5Fopen((path / "in memory").c_str(), H5F_ACC_RDONLY, access),
-                      H5Fclose, "open it");
+    const OpenBytes memory(bytes, path); // what is read is what was summed
+    const hid_t file = memory.file();
     if (const std::string format = read_format(file); format != "mergel " + kind)
       throw InputError("is a " + format + ", no mergel " + kind);
     int found = 0;
@@ -341,7 +280,7 @@ State read_state(const fs::path& path, const std::string& kind, int version)
                  array.values);
     }
   } catch (const NumericalError& e) {
-    throw InputError(std::string("is damaged (") + e.what() + "); " + seal.remedy);
+    throw DamagedFile(std::string("is damaged (") + e.what() + "); " + seal.remedy);
   }
   return state;
 }

@@ -100,16 +100,20 @@ private:
 };
 
 /// Replace `file` whole (dem/io/atomic_file.h); collective, each rank with arrays of the
-/// same names. Sealed by a sum over all its bytes (dem/io/seal.h).
-/// @throws CollectiveFailure naming the file and the system's reason; an earlier `file`
-///   stands
+/// same names. What the ranks wrote is read back and compared (dem/io/shared_file.h), then
+/// sealed by a sum over all bytes (dem/io/seal.h).
+/// @throws CollectiveFailure naming the file and the system's reason, or the rank that does
+///   not see it, or whose rows are lost; an earlier `file` stands
 void write_state(const std::filesystem::path& file, const std::string& kind, int version,
                  const State& mine, const Domain& domain);
 
 /// @param kind what the file must be, for example "checkpoint"
+/// @param sum if not null, becomes the sum that seals the file
 /// @throws DamagedFile (dem/io/seal.h), without the file's name in front, when it is
-///   truncated, changed or of another kind; InputError when it is missing, may not be read,
-///   is of another version, or holds a number that is not finite
-State read_state(const std::filesystem::path& file, const std::string& kind, int version);
+///   truncated, changed, of another kind, or holds what no program of ours writes: an array
+///   that HDF5 cannot read, a number that is not finite; InputError when it is missing, may
+///   not be read or is of another version
+State read_state(const std::filesystem::path& file, const std::string& kind, int version,
+                 std::uint64_t* sum = nullptr);
 
 } // namespace mergel::dem

@@ -33,6 +33,20 @@ for scene in block turning periodic element varied; do
   echo "$scene: $(tail -1 one | cut -d' ' -f3-6), the same bits on 1, 2, 3, 4, 8 ranks and after two restarts"
 done
 
+# A rank whose folder is another one (a disk of its own) is told, and fills no file there, nor
+# an old one of that name.
+mkdir apart
+apart() {
+  timeout 60 mpirun --oversubscribe -n 2 bash -c '[ "$OMPI_COMM_WORLD_RANK" = 0 ] || cd apart; exec "$@"' apart "$@"
+}
+for old in none .c.partial.h5; do
+  [ $old = none ] || echo old >apart/$old
+  if apart "$scenes" block stop 3 c.h5 >log 2>&1; then fail "a checkpoint in two folders was sealed"; fi
+  grep -q 'c.h5: rank 1 on .* does not see the file that rank 0 on' log || fail "a checkpoint in two folders: $(cat log)"
+  [ ! -e c.h5 ] && [ ! -e apart/c.h5 ] || fail "a checkpoint in two folders stands"
+done
+[ "$(cat apart/.c.partial.h5)" = old ] || fail "an old file was filled"
+
 # Coupled: a small pile until bonds break.
 tiny=(--set "Specimen/diameter=6 mm" --set "Specimen/height=6 mm" --set "Specimen/inner upscaling=5"
   --set "Specimen/outer radius=3 mm" --set "Far field/chamber diameter=12 mm"

@@ -251,7 +251,54 @@ TEST_CASE("A checkpoint set aside leaves those set aside before as they are",
   fs::rename(beside(".aside-two"), beside(".aside-2"));
   JobOptions options;
   options.output = options.restart = folder.path;
-  CHECK_THROWS_WITH(folder_to_begin_in(options), Contains("holds a run with checkpoints"));
+  CHECK_THROWS_WITH(folder_to_begin_in(options).check(),
+                    Contains("holds a run with checkpoints"));
+}
+
+TEST_CASE("A run that came and went while this one was made ready is not begun again",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  touch(folder.path / "history.csv");
+  JobOptions options;
+  options.output = options.restart = folder.path;
+  OutputFolder output = folder_to_begin_in(options);
+  output.check();
+  touch(folder.path / "summary.json");
+  CHECK_THROWS_WITH(output.commit(), Contains("holds a finished run"));
+  CHECK(fs::exists(folder.path / "history.csv"));
+}
+
+TEST_CASE("A folder that is held before it is looked at is this run's until the end",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  {
+    OutputFolder output(folder.path, Earlier::go_on);
+    output.hold(FolderLock(folder.path, 0.0));
+    CHECK_THROWS_AS(require_no_run(folder.path, 0.0), InputError);
+    CHECK_NOTHROW(output.check());
+    CHECK_NOTHROW(output.commit());
+    CHECK_THROWS_AS(FolderLock(folder.path, 0.0), InputError);
+  }
+  CHECK(tree(folder.path).empty());
+}
+
+TEST_CASE("The files of a results folder are told from a user's", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  for (const char* file : {"notes.txt", "data.csv", "fields/mine.vtp"})
+    touch(folder.path / file);
+  CHECK(own_files_in(folder.path).files.empty());
+  CHECK(own_files_in(folder.path).frames.empty());
+  for (const char* file : {".history.partial.csv", "checkpoint_000000000300.h5.aside-2",
+                           "fields/bonds_0000.vtp", "fields/.bonds_0001.partial.vtp"})
+    touch(folder.path / file);
+  const OwnFiles own = own_files_in(folder.path);
+  CHECK(own.files.size() == 2);
+  CHECK(own.aside ==
+        std::vector<fs::path>{folder.path / "checkpoint_000000000300.h5.aside-2"});
+  CHECK(own.frames == std::vector<fs::path>{folder.path / "fields/bonds_0000.vtp"});
 }
 
 TEST_CASE("A folder where a run is writing is refused to another until it ends",

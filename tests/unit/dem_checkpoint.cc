@@ -131,6 +131,29 @@ TEST_CASE("what is no checkpoint is refused with the reason", "[unit][dem]")
   CHECK(refusal(file).find("does not fit this program or case: its array label_") == 0);
 }
 
+TEST_CASE("a sealed checkpoint that holds what is not a number is damaged, not another's",
+          "[unit][dem]")
+{
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / checkpoint_name(1);
+  CheckpointLabel rare = label();
+  rare.time = 0.12345678; // found once in the file
+  write_checkpoint(file, rare, kept(rock_with_everything()), Domain());
+  const Seal seal{"checkpoint", "64-bit sum", "", sum_of_words};
+  std::string bytes = unsealed(file, seal);
+  const auto in_bytes = [](double value) {
+    std::string text(sizeof value, '\0');
+    std::memcpy(text.data(), &value, sizeof value);
+    return text;
+  };
+  const auto at = bytes.rfind(in_bytes(rare.time));
+  REQUIRE(at != std::string::npos);
+  bytes.replace(at, sizeof(double), in_bytes(std::numeric_limits<double>::quiet_NaN()));
+  std::ofstream(file, std::ios::binary) << sealed(bytes, seal);
+  CHECK(refusal(file).find("is damaged (label_time holds what is not a number)") == 0);
+  CHECK(newest_checkpoint(folder.path).refused.front().is_damaged);
+}
+
 TEST_CASE("a checkpoint with one changed byte is refused, wherever the byte is",
           "[unit][dem]")
 {
