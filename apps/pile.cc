@@ -82,7 +82,7 @@ int run_pile(const JobOptions& options)
     on_every_rank([&] { check_new_end(file, c, *restart); });
     std::cout << report(*restart) << '\n';
   }
-  const auto inputs = inputs_of(options, restart, {c.rock.sample});
+  const auto inputs = inputs_of(options, restart, {c.rock.sample, c.rock.table});
   OutputFolder folder = folder_of(options, restart, inputs, std::move(lock));
   if (restart)
     on_first_rank([&] { PileOutput::check(restart->folder, restart->checkpoint.state); });
