@@ -39,7 +39,7 @@ struct Test {
   void add(const ElementRecord& r)
   {
     records.push_back(r);
-    if (history) history->add(r);
+    on_first_rank([&] { history->add(r); });
   }
 };
 
@@ -214,7 +214,7 @@ void go_on(Test& test, const CaseFile& file, const ElementCase& c, OutputFolder&
   });
   require_shared(folder.path());
   test.pictures.emplace(folder.path(), c, *test.run, restart.folder, state);
-  restart.file = folder.path() / restart.file.filename(); // brought along
+  restart.file = checkpoint_in(folder.path(), restart);
 }
 
 } // namespace

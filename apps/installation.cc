@@ -1,6 +1,7 @@
 #include "apps/installation.h"
 
 #include "apps/progress.h"
+#include "apps/ranks.h"
 #include "dem/distribute.h"
 
 #include <algorithm>
@@ -109,7 +110,7 @@ double Installation::travelled() const
 void Installation::frame()
 {
   const dem::Rock rock = dem::whole(coupled_.rock);
-  if (output_) output_->frame(time_, rock, coupled_);
+  on_first_rank([&] { output_->frame(time_, rock, coupled_); });
 }
 
 std::string Installation::now() const
@@ -160,7 +161,8 @@ void Installation::record()
   const PileRecord r = new_record(coupled_.books());
   last_ = r;
   q_peak_ = std::max(q_peak_, r.q_c);
-  if (output_) output_->record(r);
+  // What is no number cannot be written; the book below says so.
+  if (std::isfinite(r.energy_error)) on_first_rank([&] { output_->record(r); });
 
   worst_energy_error_ = std::max(worst_energy_error_, std::abs(r.energy_error));
   worst_interface_.force = std::max(worst_interface_.force, r.interface.force);
@@ -168,9 +170,9 @@ void Installation::record()
   worst_interface_.power = std::max(worst_interface_.power, r.interface.power);
   if (!(std::abs(r.energy_error) <= 0.01))
     throw Unstable("the energy book leaves " + dem::shortest(r.energy_error) +
-                         " of the input unexplained (at most 0.01) at step " +
-                         std::to_string(coupled_.n_steps) + ", t = " +
-                         dem::shortest(time_) + " s: lower `Motion/time step safety`");
+                   " of the input unexplained (at most 0.01) at step " +
+                   std::to_string(coupled_.n_steps) + ", t = " + dem::shortest(time_) +
+                   " s: lower `Motion/time step safety`");
 }
 
 } // namespace mergel::apps

@@ -213,8 +213,9 @@ std::string Keeper::remedy_of_instability() const
 {
   if (last_.empty()) return remedy();
   return "; the last checkpoint is " + last_.string() +
-         ", and the same run fails behind it again. Begin anew with what is said here, or "
-         "continue with a smaller step: mergel " +
+         ", and from it the same run would fail again. Begin a new run with the change "
+         "named "
+         "above, or where a smaller step helps go on with: mergel " +
          spec_.job + " --restart " + spec_.folder.string() +
          " --set \"Motion/time step safety=...\"";
 }

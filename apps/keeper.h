@@ -77,8 +77,9 @@ public:
   /// "; the last checkpoint is ..., continue with ...", for a message on a failure.
   std::string remedy() const;
 
-  /// Throw the exception that is being handled: a failure of run, system or library (exit
-  /// code 2) as a NumericalError with the remedy, what all ranks know and all else as it is.
+  /// Throw the exception that is being handled, with the remedy: what all ranks know as
+  /// Remedied, another failure of run, system or library (exit code 2) as a NumericalError;
+  /// bad input and bugs as they are.
   /// @param leave_figures writes what was found until the run went unstable, and how that is
   ///   said; collective, may throw CollectiveFailure
   /// @pre called from a catch block

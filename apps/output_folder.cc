@@ -68,6 +68,8 @@ void require_unfinished(const fs::path& folder)
   std::string found;
   if (fs::exists(folder / "summary.json", error))
     found = "a finished run";
+  else if (fs::exists(folder / "failed.json", error))
+    found = "a failed run";
   else
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {

@@ -51,7 +51,7 @@ public:
   void commit(const std::vector<std::filesystem::path>& inputs = {});
 
   /// Remove what the earlier run wrote after a checkpoint, and what it left unfinished:
-  /// frames from `n_frames` on, the summary, temporary files. Checkpoints after `step` are
+  /// frames from `n_frames` on, the summary, failed.json, temporary files. Checkpoints after `step` are
   /// set aside, whatever is wrong with them: checkpoint_<step>.h5.aside, or .aside-2 and so
   /// on where that is taken.
   /// @return the new names of these

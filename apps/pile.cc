@@ -7,6 +7,8 @@
 #include "apps/restart.h"
 #include "apps/shared_folder.h"
 #include "apps/specimen.h"
+#include "apps/words.h"
+#include "dem/io/atomic_file.h"
 
 #include <algorithm>
 #include <iostream>
@@ -105,7 +107,7 @@ int run_pile(const JobOptions& options)
       output.emplace(folder.path(), c, restart->folder, state);
     });
     require_shared(folder.path());
-    restart->file = folder.path() / restart->file.filename(); // brought along
+    restart->file = checkpoint_in(folder.path(), *restart);
   } else {
     const dem::Sample sample = obtain_sample(file, c.rock);
     std::cout << far_field.summary() << '\n' << report(c.rock, sample) << '\n';
@@ -156,7 +158,14 @@ int run_pile(const JobOptions& options)
     run.run(after_step);
   } catch (...) {
     keeper.rethrow_with_remedy([&](const std::string& failure) {
-      if (is_driving) summarise("failed.json", failure);
+      if (is_driving) {
+        summarise("failed.json", failure);
+        return;
+      }
+      on_first_rank([&] {
+        dem::replace_file(folder.path() / "failed.json",
+                          "{\n  \"failure\": " + in_json(failure) + "\n}\n");
+      });
     });
   }
   const std::size_t n_debris = summarise("summary.json", "");

@@ -230,12 +230,20 @@ OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& 
   return folder;
 }
 
+fs::path checkpoint_in(const fs::path& folder, const Restart& restart)
+{
+  std::error_code error;
+  return fs::equivalent(folder, restart.folder, error)
+             ? restart.file
+             : folder / dem::checkpoint_name(restart.checkpoint.label.step);
+}
+
 namespace {
 
 /// Bring the checkpoint into the folder where the run goes on, if that is another.
-void bring_along(const fs::path& checkpoint, const fs::path& folder)
+void bring_along(const Restart& restart, const fs::path& folder)
 {
-  const fs::path there = folder / checkpoint.filename();
+  const fs::path &checkpoint = restart.file, there = checkpoint_in(folder, restart);
   std::error_code error;
   if (fs::equivalent(checkpoint, there, error)) return;
   dem::replace_file(there, [&](const fs::path& file) {
@@ -256,7 +264,7 @@ void go_on_in(OutputFolder& folder, const std::vector<std::filesystem::path>& in
 {
   folder.commit(inputs);
   // Without it the folder would look like that of a run that has only begun.
-  bring_along(restart.file, folder.path());
+  bring_along(restart, folder.path());
   const std::size_t n_frames = Frames::count(restart.checkpoint.state);
   for (const auto& set_aside : folder.cut_back(n_frames, restart.checkpoint.label.step))
     std::cout << "set aside: " << set_aside.string() << '\n';

@@ -89,6 +89,11 @@ OutputFolder folder_to_begin_in(const JobOptions& options);
 OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart,
                        const std::vector<std::filesystem::path>& inputs, FolderLock lock);
 
+/// Where the checkpoint is once the folder is made ready: brought into another folder it gets
+/// the name of its step, whatever it was called.
+std::filesystem::path checkpoint_in(const std::filesystem::path& folder,
+                                    const Restart& restart);
+
 /// Make a folder ready to go on in: the checkpoint is brought along first, if it is
 /// another folder, so that a run that is killed on the way can never be taken for one
 /// without; what the run wrote behind the checkpoint goes, newer checkpoints are set

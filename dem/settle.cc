@@ -94,6 +94,7 @@ public:
   /// The grains at rest. A periodic box takes the change of their sizes over. Collective.
   Packing finish()
   {
+    rock_.domain.agree_on(rock_.fault); // of the last step
     Packing packing;
     packing.pressure = pressure();
     packing.overlap = largest_overlap();

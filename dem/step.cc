@@ -168,7 +168,7 @@ void check_overlaps(const Rock& rock)
           " of the smaller radius (at most 0.5): the contact is too soft for "
           "this load");
   };
-  Fault fault;
+  Fault fault = rock.fault; // may have waited for this
   fault.watch([&] {
     for (const Pair& q : rock.bonds.pairs) check(q);
     for (const Pair& q : rock.contacts.pairs) check(q);

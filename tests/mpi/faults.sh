@@ -12,11 +12,13 @@ cd "$work"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
 
 fail() { echo "FAILED: $*"; exit 1; }
+declare -A said=([drift]="particle 1234 moves" [force]="out of the range of the exact sums" [overlap]="overlap by" [nowhere]="overlap by -*nan")
 for fault in drift force overlap nowhere; do
   for n in 1 2 3; do
     timeout 120 mpirun --oversubscribe -n $n "$faults" $fault >$n 2>&1 || fail "$fault on $n ranks: $(cat $n)"
     cmp 1 $n || fail "$fault on $n ranks: $(cat $n), on one: $(cat 1)"
   done
+  grep -q "${said[$fault]}" 1 || fail "$fault is taken for something else: $(cat 1)"
   echo "$fault: $(cat 1)"
 done
 # A rank that refuses its input alone does not wait for ever.

@@ -269,6 +269,21 @@ TEST_CASE("A run that came and went while this one was made ready is not begun a
   CHECK(fs::exists(folder.path / "history.csv"));
 }
 
+TEST_CASE("A failed run without a checkpoint is not begun again over its results",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  touch(folder.path / "history.csv");
+  touch(folder.path / "failed.json");
+  JobOptions options;
+  options.output = options.restart = folder.path;
+  CHECK_THROWS_WITH(folder_to_begin_in(options).check(), Contains("holds a failed run"));
+  options.restart.clear();
+  options.overwrite = true;
+  folder_to_begin_in(options).commit();
+  CHECK(tree(folder.path).empty());
+}
+
 TEST_CASE("A folder that is held before it is looked at is this run's until the end",
           "[unit][apps]")
 {
