@@ -88,11 +88,6 @@ std::optional<Restart> choose(const fs::path& place, const std::string& job)
   return found;
 }
 
-std::string shown(const std::string& value)
-{
-  return value.empty() ? "not given" : value;
-}
-
 } // namespace
 
 fs::path folder_to_restart(const fs::path& place)

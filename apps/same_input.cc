@@ -1,6 +1,7 @@
 #include "apps/same_input.h"
 
 #include "apps/ranks.h"
+#include "apps/words.h"
 
 #include <algorithm>
 
@@ -11,11 +12,6 @@ namespace {
 const char* const remedy =
     "Put it into a folder that all nodes share, and leave it as it is "
     "while the run starts.";
-
-std::string shown(const std::string& value)
-{
-  return value.empty() ? "not given" : value;
-}
 
 } // namespace
 

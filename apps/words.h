@@ -69,6 +69,12 @@ inline std::string in_one_line(std::string text)
   return joined(kept, " ");
 }
 
+/// The value of a key, to be told.
+inline std::string shown(const std::string& value)
+{
+  return value.empty() ? "not given" : value;
+}
+
 /// The text as a string of JSON, in its quotation marks. @pre it is in one line
 inline std::string in_json(const std::string& text)
 {
