@@ -14,7 +14,8 @@
 namespace mergel::apps {
 
 const char* const forms_of_leg =
-    "isotropic | oedometer | triaxial [at STRESS] | radial dq/dp = NUMBER or inf | compression | "
+    "isotropic | oedometer | triaxial [at STRESS] | radial dq/dp = NUMBER or inf | "
+    "compression | "
     "tension | axes x = RULE, y = RULE, z = RULE (one `driven`, the others `fixed` or a "
     "STRESS) | resume | unload | reload | unload-reload, then `to` and where it ends: p, "
     "q, axial stress, lateral stress, axial strain, volumetric strain, x stress, y stress, "
