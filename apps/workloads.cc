@@ -2,8 +2,8 @@
 
 #include "dem/error.h"
 #include "dem/growth.h"
-#include "dem/morton.h"
-#include "dem/random.h"
+#include "dem/math/morton.h"
+#include "dem/math/random.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 /// Interpolation between the interface nodes of the far field and the nodes of a DEM wall.
 #pragma once
 
-#include "dem/exact_sum.h"
+#include "dem/math/exact_sum.h"
 
 #include <Eigen/SparseCore>
 

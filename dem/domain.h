@@ -7,7 +7,7 @@
 #pragma once
 
 #include "dem/collective_failure.h"
-#include "dem/exact_sum.h"
+#include "dem/math/exact_sum.h"
 #include "dem/particles.h"
 
 #include <functional>

@@ -3,7 +3,7 @@
 
 #include "dem/bonds.h"
 #include "dem/contacts.h"
-#include "dem/exact_sum.h"
+#include "dem/math/exact_sum.h"
 
 #include <array>
 

@@ -1,6 +1,6 @@
 #include "dem/integrate.h"
 
-#include "dem/lanes.h"
+#include "dem/math/simd.h"
 
 #include <algorithm>
 #include <cmath>

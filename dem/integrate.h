@@ -1,7 +1,7 @@
 /// Leapfrog with local non-viscous damping; velocities live at half steps.
 #pragma once
 
-#include "dem/exact_sum.h"
+#include "dem/math/exact_sum.h"
 #include "dem/particles.h"
 
 namespace mergel::dem {

@@ -2,7 +2,7 @@
 /// pair.
 #pragma once
 
-#include "dem/lanes.h"
+#include "dem/math/simd.h"
 
 namespace mergel::dem {
 

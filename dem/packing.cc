@@ -1,10 +1,10 @@
 #include "dem/packing.h"
 
 #include "dem/growth.h"
-#include "dem/morton.h"
+#include "dem/math/morton.h"
+#include "dem/math/random.h"
 #include "dem/neighbours.h"
 #include "dem/porosity.h"
-#include "dem/random.h"
 #include "dem/settle.h"
 
 #include <algorithm>

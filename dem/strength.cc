@@ -1,7 +1,7 @@
 #include "dem/strength.h"
 
 #include "dem/error.h"
-#include "dem/random.h"
+#include "dem/math/random.h"
 
 #include <algorithm>
 #include <cmath>

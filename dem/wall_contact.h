@@ -2,9 +2,9 @@
 /// made of.
 #pragma once
 
-#include "dem/exact_sum.h"
 #include "dem/forces.h"
 #include "dem/laws/linear.h"
+#include "dem/math/exact_sum.h"
 #include "dem/particles.h"
 
 namespace mergel::dem {

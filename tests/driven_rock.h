@@ -5,7 +5,7 @@
 
 #include "dem/averages.h"
 #include "dem/balance.h"
-#include "dem/random.h"
+#include "dem/math/random.h"
 
 #include <array>
 

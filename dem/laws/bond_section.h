@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dem/error.h"
-#include "dem/lanes.h"
+#include "dem/math/simd.h"
 
 #include <cstddef>
 

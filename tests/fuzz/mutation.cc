@@ -1,6 +1,6 @@
 #include "tests/fuzz/mutation.h"
 
-#include "dem/random.h"
+#include "dem/math/random.h"
 
 #include <algorithm>
 #include <array>

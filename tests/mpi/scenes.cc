@@ -18,7 +18,7 @@
 #include "dem/distribute.h"
 #include "dem/io/checkpoint.h"
 #include "dem/io/rock_state.h"
-#include "dem/random.h"
+#include "dem/math/random.h"
 #include "dem/servo.h"
 #include "dem/strength.h"
 

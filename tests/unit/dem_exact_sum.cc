@@ -1,4 +1,4 @@
-#include "dem/exact_sum.h"
+#include "dem/math/exact_sum.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 #include "dem/error.h"
-#include "dem/random.h"
+#include "dem/math/random.h"
 #include "dem/region.h"
 
 #include <catch2/catch.hpp>

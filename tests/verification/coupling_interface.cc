@@ -2,7 +2,7 @@
 #include "coupling/exchange.h"
 #include "coupling/ledger.h"
 #include "dem/balance.h"
-#include "dem/random.h"
+#include "dem/math/random.h"
 #include "dem/step.h"
 #include "tests/small_chamber.h"
 
