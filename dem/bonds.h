@@ -4,7 +4,7 @@
 #include "dem/laws/bond_law.h"
 #include "dem/laws/linear.h"
 #include "dem/pairs.h"
-#include "dem/particles.h"
+#include "dem/particles/particles.h"
 
 #include <vector>
 

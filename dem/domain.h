@@ -8,7 +8,7 @@
 
 #include "dem/collective_failure.h"
 #include "dem/math/exact_sum.h"
-#include "dem/particles.h"
+#include "dem/particles/particles.h"
 
 #include <functional>
 #include <mpi.h>

@@ -1,6 +1,6 @@
 #include "dem/driven_pair.h"
 
-#include "dem/integrate.h"
+#include "dem/particles/integrate.h"
 
 #include <algorithm>
 #include <array>

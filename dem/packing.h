@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dem/laws/linear.h"
-#include "dem/particles.h"
+#include "dem/particles/particles.h"
 #include "dem/psd.h"
 #include "dem/region.h"
 

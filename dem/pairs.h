@@ -1,7 +1,7 @@
 /// Pairs of particles and the order in which they are summed.
 #pragma once
 
-#include "dem/cell.h"
+#include "dem/particles/cell.h"
 
 #include <compare>
 

@@ -1,7 +1,7 @@
 /// Porosity of grains in a region, by true sphere volumes.
 #pragma once
 
-#include "dem/particles.h"
+#include "dem/particles/particles.h"
 #include "dem/region.h"
 
 namespace mergel::dem {

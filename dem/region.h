@@ -1,7 +1,7 @@
 /// Where a specimen is made: its shape, its size and what bounds it.
 #pragma once
 
-#include "dem/cell.h"
+#include "dem/particles/cell.h"
 
 #include <variant>
 #include <vector>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "dem/domain.h"
-#include "dem/integrate.h"
 #include "dem/mirror.h"
 #include "dem/neighbours.h"
+#include "dem/particles/integrate.h"
 #include "dem/surfaces.h"
 #include "dem/timestep.h"
 #include "dem/walls.h"

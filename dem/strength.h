@@ -7,7 +7,7 @@
 /// and no file has to keep it.
 #pragma once
 
-#include "dem/particles.h"
+#include "dem/particles/particles.h"
 
 namespace mergel::dem {
 

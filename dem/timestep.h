@@ -2,8 +2,8 @@
 #pragma once
 
 #include "dem/forces.h"
-#include "dem/integrate.h"
 #include "dem/mirror.h"
+#include "dem/particles/integrate.h"
 #include "dem/surfaces.h"
 #include "dem/walls.h"
 

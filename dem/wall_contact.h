@@ -5,7 +5,7 @@
 #include "dem/forces.h"
 #include "dem/laws/linear.h"
 #include "dem/math/exact_sum.h"
-#include "dem/particles.h"
+#include "dem/particles/particles.h"
 
 namespace mergel::dem {
 

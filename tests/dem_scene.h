@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dem/forces.h"
-#include "dem/integrate.h"
+#include "dem/particles/integrate.h"
 #include "dem/timestep.h"
 
 #include <array>

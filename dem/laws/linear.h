@@ -10,7 +10,7 @@
 #pragma once
 
 #include "dem/error.h"
-#include "dem/kinematics.h"
+#include "dem/particles/kinematics.h"
 
 namespace mergel::dem {
 

@@ -1,7 +1,7 @@
-#include "dem/cell.h"
+#include "dem/particles/cell.h"
 
 #include "dem/collective_failure.h"
-#include "dem/particles.h"
+#include "dem/particles/particles.h"
 
 #include <string>
 

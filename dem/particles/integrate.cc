@@ -1,4 +1,4 @@
-#include "dem/integrate.h"
+#include "dem/particles/integrate.h"
 
 #include "dem/math/simd.h"
 

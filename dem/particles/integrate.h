@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dem/math/exact_sum.h"
-#include "dem/particles.h"
+#include "dem/particles/particles.h"
 
 namespace mergel::dem {
 
