@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/case_file.h"
-#include "dem/forces.h"
+#include "dem/pairs/forces.h"
 
 namespace mergel::apps {
 

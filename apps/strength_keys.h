@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/case_file.h"
-#include "dem/strength.h"
+#include "dem/pairs/strength.h"
 
 namespace mergel::apps {
 

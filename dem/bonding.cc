@@ -1,6 +1,6 @@
 #include "dem/bonding.h"
 
-#include "dem/neighbours.h"
+#include "dem/pairs/neighbours.h"
 
 #include <algorithm>
 #include <cmath>

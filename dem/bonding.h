@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dem/packing.h"
-#include "dem/pairs.h"
+#include "dem/pairs/pairs.h"
 
 namespace mergel::dem {
 

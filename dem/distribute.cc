@@ -1,6 +1,6 @@
 #include "dem/distribute.h"
 
-#include "dem/bond_record.h"
+#include "dem/pairs/bond_record.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 /// seen, run by the very kernel of every other job.
 #pragma once
 
-#include "dem/forces.h"
+#include "dem/pairs/forces.h"
 
 namespace mergel::dem {
 

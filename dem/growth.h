@@ -2,7 +2,7 @@
 /// overdamped and without friction.
 #pragma once
 
-#include "dem/neighbours.h"
+#include "dem/pairs/neighbours.h"
 #include "dem/region.h"
 
 #include <functional>

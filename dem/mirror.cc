@@ -1,6 +1,6 @@
 #include "dem/mirror.h"
 
-#include "dem/strength.h"
+#include "dem/pairs/strength.h"
 
 #include <stdexcept>
 

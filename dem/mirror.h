@@ -1,7 +1,7 @@
 /// The cut plane of a half model: each particle near it acts on its own mirror image.
 #pragma once
 
-#include "dem/forces.h"
+#include "dem/pairs/forces.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include "dem/growth.h"
 #include "dem/math/morton.h"
 #include "dem/math/random.h"
-#include "dem/neighbours.h"
+#include "dem/pairs/neighbours.h"
 #include "dem/porosity.h"
 #include "dem/settle.h"
 

@@ -3,7 +3,7 @@
 
 #include "dem/domain.h"
 #include "dem/mirror.h"
-#include "dem/neighbours.h"
+#include "dem/pairs/neighbours.h"
 #include "dem/particles/integrate.h"
 #include "dem/surfaces.h"
 #include "dem/timestep.h"

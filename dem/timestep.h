@@ -1,8 +1,8 @@
 /// Critical time step from the stiffness that each particle feels.
 #pragma once
 
-#include "dem/forces.h"
 #include "dem/mirror.h"
+#include "dem/pairs/forces.h"
 #include "dem/particles/integrate.h"
 #include "dem/surfaces.h"
 #include "dem/walls.h"

@@ -2,9 +2,9 @@
 /// made of.
 #pragma once
 
-#include "dem/forces.h"
 #include "dem/laws/linear.h"
 #include "dem/math/exact_sum.h"
+#include "dem/pairs/forces.h"
 #include "dem/particles/particles.h"
 
 namespace mergel::dem {

@@ -1,6 +1,6 @@
 #include "dem/walls.h"
 
-#include "dem/strength.h"
+#include "dem/pairs/strength.h"
 
 namespace mergel::dem {
 

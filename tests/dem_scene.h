@@ -1,7 +1,7 @@
 /// A handful of particles and their step, for the tests of the DEM core.
 #pragma once
 
-#include "dem/forces.h"
+#include "dem/pairs/forces.h"
 #include "dem/particles/integrate.h"
 #include "dem/timestep.h"
 

@@ -1,7 +1,7 @@
 #include "dem/io/grain_state.h"
 
-#include "dem/bond_record.h"
 #include "dem/io/state_rows.h"
+#include "dem/pairs/bond_record.h"
 
 namespace mergel::dem {
 

@@ -19,8 +19,8 @@
 #include "dem/io/checkpoint.h"
 #include "dem/io/rock_state.h"
 #include "dem/math/random.h"
+#include "dem/pairs/strength.h"
 #include "dem/servo.h"
-#include "dem/strength.h"
 
 #include <cinttypes>
 #include <cstdio>

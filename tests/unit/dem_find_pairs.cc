@@ -1,6 +1,6 @@
 #include "tests/dem_scene.h"
 
-#include "dem/neighbours.h"
+#include "dem/pairs/neighbours.h"
 
 #include <catch2/catch.hpp>
 

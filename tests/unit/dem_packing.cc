@@ -1,7 +1,7 @@
 #include "tests/dem_scene.h"
 
 #include "dem/bonding.h"
-#include "dem/neighbours.h"
+#include "dem/pairs/neighbours.h"
 #include "dem/porosity.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "dem/strength.h"
+#include "dem/pairs/strength.h"
 #include "tests/dem_scene.h"
 
 #include "dem/error.h"

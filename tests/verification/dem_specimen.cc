@@ -1,6 +1,6 @@
 // Specimens in a periodic box: what the case asks for is what is made.
 #include "dem/bonding.h"
-#include "dem/neighbours.h"
+#include "dem/pairs/neighbours.h"
 #include "dem/settle.h"
 
 #include <catch2/catch.hpp>

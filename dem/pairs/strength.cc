@@ -1,4 +1,4 @@
-#include "dem/strength.h"
+#include "dem/pairs/strength.h"
 
 #include "dem/error.h"
 #include "dem/math/random.h"

@@ -1,7 +1,7 @@
 /// A bond by itself: its pair and its history, as ranks and checkpoints pass it on.
 #pragma once
 
-#include "dem/bonds.h"
+#include "dem/pairs/bonds.h"
 
 #include <array>
 

@@ -1,8 +1,8 @@
 /// Which particles may act on each other: cell search and Verlet list.
 #pragma once
 
-#include "dem/bonds.h"
-#include "dem/contacts.h"
+#include "dem/pairs/bonds.h"
+#include "dem/pairs/contacts.h"
 
 #include <algorithm>
 

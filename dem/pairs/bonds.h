@@ -3,7 +3,7 @@
 
 #include "dem/laws/bond_law.h"
 #include "dem/laws/linear.h"
-#include "dem/pairs.h"
+#include "dem/pairs/pairs.h"
 #include "dem/particles/particles.h"
 
 #include <vector>

@@ -1,4 +1,4 @@
-#include "dem/neighbours.h"
+#include "dem/pairs/neighbours.h"
 
 #include <algorithm>
 #include <array>

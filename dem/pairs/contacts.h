@@ -2,7 +2,7 @@
 /// in contact.
 #pragma once
 
-#include "dem/pairs.h"
+#include "dem/pairs/pairs.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "dem/bonds.h"
+#include "dem/pairs/bonds.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 /// Forces between particles: one kernel for every pair, bonded or not.
 #pragma once
 
-#include "dem/bonds.h"
-#include "dem/contacts.h"
 #include "dem/math/exact_sum.h"
+#include "dem/pairs/bonds.h"
+#include "dem/pairs/contacts.h"
 
 #include <array>
 

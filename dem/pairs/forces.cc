@@ -1,6 +1,6 @@
-#include "dem/forces.h"
+#include "dem/pairs/forces.h"
 
-#include "dem/strength.h"
+#include "dem/pairs/strength.h"
 
 #include <algorithm>
 #include <cstring>
