@@ -3,7 +3,7 @@
 #pragma once
 
 #include "coupling/transfer.h"
-#include "dem/walls.h"
+#include "dem/walls/triangulated.h"
 #include "fem/far_field.h"
 
 namespace mergel::coupling {

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "dem/domain.h"
-#include "dem/mirror.h"
 #include "dem/pairs/neighbours.h"
 #include "dem/particles/integrate.h"
-#include "dem/surfaces.h"
 #include "dem/timestep.h"
-#include "dem/walls.h"
+#include "dem/walls/mirror.h"
+#include "dem/walls/surfaces.h"
+#include "dem/walls/triangulated.h"
 
 #include <cmath>
 #include <limits>

@@ -1,11 +1,11 @@
 /// Critical time step from the stiffness that each particle feels.
 #pragma once
 
-#include "dem/mirror.h"
 #include "dem/pairs/forces.h"
 #include "dem/particles/integrate.h"
-#include "dem/surfaces.h"
-#include "dem/walls.h"
+#include "dem/walls/mirror.h"
+#include "dem/walls/surfaces.h"
+#include "dem/walls/triangulated.h"
 
 namespace mergel::dem {
 

@@ -1,6 +1,6 @@
 #include "tests/dem_scene.h"
 
-#include "dem/mirror.h"
+#include "dem/walls/mirror.h"
 
 #include <catch2/catch.hpp>
 

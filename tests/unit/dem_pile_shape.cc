@@ -1,6 +1,6 @@
 #include "tests/dem_scene.h"
 
-#include "dem/surfaces.h"
+#include "dem/walls/surfaces.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 #include "tests/dem_scene.h"
 
-#include "dem/surfaces.h"
-#include "dem/walls.h"
+#include "dem/walls/surfaces.h"
+#include "dem/walls/triangulated.h"
 
 #include <catch2/catch.hpp>
 

@@ -2,8 +2,8 @@
 #include "tests/dem_scene.h"
 
 #include "dem/error.h"
-#include "dem/mirror.h"
-#include "dem/walls.h"
+#include "dem/walls/mirror.h"
+#include "dem/walls/triangulated.h"
 
 #include <catch2/catch.hpp>
 

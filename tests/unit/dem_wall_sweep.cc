@@ -1,6 +1,6 @@
 #include "tests/dem_scene.h"
 
-#include "dem/walls.h"
+#include "dem/walls/triangulated.h"
 
 #include <catch2/catch.hpp>
 

@@ -19,7 +19,7 @@
 
 #include "tests/dem_scene.h"
 
-#include "dem/surfaces.h"
+#include "dem/walls/surfaces.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 /// Exact walls: plane and cone-ended pile, each a rigid body moved from outside.
 #pragma once
 
-#include "dem/wall_contact.h"
+#include "dem/walls/wall_contact.h"
 
 #include <optional>
 #include <vector>

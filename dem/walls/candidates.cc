@@ -1,5 +1,5 @@
 /// Which grains meet a wall, and where: candidates, touches, new bonds.
-#include "dem/walls.h"
+#include "dem/walls/triangulated.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "dem/mirror.h"
+#include "dem/walls/mirror.h"
 
 #include "dem/pairs/strength.h"
 

@@ -1,4 +1,4 @@
-#include "dem/surfaces.h"
+#include "dem/walls/surfaces.h"
 
 #include <algorithm>
 #include <cmath>

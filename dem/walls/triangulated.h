@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dem/laws/bond_law.h"
-#include "dem/wall_contact.h"
+#include "dem/walls/wall_contact.h"
 
 #include <array>
 #include <optional>

@@ -1,5 +1,5 @@
 /// The triangles of a wall: what lies beyond their edges, their smooth patches, their normals.
-#include "dem/walls.h"
+#include "dem/walls/triangulated.h"
 
 #include <cmath>
 #include <map>

@@ -1,4 +1,4 @@
-#include "dem/walls.h"
+#include "dem/walls/triangulated.h"
 
 #include "dem/pairs/strength.h"
 
