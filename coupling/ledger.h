@@ -3,7 +3,7 @@
 #pragma once
 
 #include "coupling/exchange.h"
-#include "dem/domain.h"
+#include "dem/parallel/domain.h"
 
 namespace mergel::coupling {
 

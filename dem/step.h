@@ -1,8 +1,8 @@
 /// One DEM step, and the state that it moves.
 #pragma once
 
-#include "dem/domain.h"
 #include "dem/pairs/neighbours.h"
+#include "dem/parallel/domain.h"
 #include "dem/particles/integrate.h"
 #include "dem/timestep.h"
 #include "dem/walls/mirror.h"

@@ -5,7 +5,7 @@
 /// or is shown as it was before, is told too.
 #pragma once
 
-#include "dem/domain.h"
+#include "dem/parallel/domain.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "dem/collective_failure.h"
-#include "dem/domain.h"
+#include "dem/parallel/domain.h"
 
 #include <filesystem>
 #include <map>

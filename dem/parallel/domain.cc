@@ -1,4 +1,4 @@
-#include "dem/domain.h"
+#include "dem/parallel/domain.h"
 
 #include <zoltan.h>
 
