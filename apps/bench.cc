@@ -4,7 +4,7 @@
 #include "apps/jobs.h"
 #include "apps/ranks.h"
 #include "apps/workloads.h"
-#include "dem/distribute.h"
+#include "dem/assembly/distribute.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"
 #include "dem/io/seal.h"

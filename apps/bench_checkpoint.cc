@@ -1,6 +1,6 @@
 #include "apps/bench_checkpoint.h"
 
-#include "dem/distribute.h"
+#include "dem/assembly/distribute.h"
 #include "dem/io/checkpoint.h"
 #include "dem/io/rock_state.h"
 

@@ -1,7 +1,7 @@
 #include "apps/coupled_rock.h"
 
 #include "apps/progress.h"
-#include "dem/distribute.h"
+#include "dem/assembly/distribute.h"
 #include "dem/io/history.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "apps/rock_case.h"
 #include "coupling/exchange.h"
 #include "coupling/ledger.h"
-#include "dem/balance.h"
+#include "dem/assembly/energy_balance.h"
 #include "dem/io/state_file.h"
 
 #include <functional>

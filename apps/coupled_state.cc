@@ -1,6 +1,6 @@
 /// The state of a coupled rock as named arrays, and back.
 #include "apps/coupled_rock.h"
-#include "dem/distribute.h"
+#include "dem/assembly/distribute.h"
 #include "dem/io/rock_state.h"
 
 #include <utility>

@@ -6,7 +6,7 @@
 #include "apps/legs.h"
 #include "apps/material_keys.h"
 #include "apps/specimen_keys.h"
-#include "dem/averages.h"
+#include "dem/assembly/averages.h"
 #include "dem/element_analysis.h"
 
 namespace mergel::apps {

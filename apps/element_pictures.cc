@@ -1,7 +1,7 @@
 #include "apps/element_pictures.h"
 
 #include "apps/ranks.h"
-#include "dem/distribute.h"
+#include "dem/assembly/distribute.h"
 #include "dem/io/rock_fields.h"
 
 #include <cmath>

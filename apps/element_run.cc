@@ -1,6 +1,6 @@
 #include "apps/element_run.h"
 
-#include "dem/distribute.h"
+#include "dem/assembly/distribute.h"
 
 #include <algorithm>
 #include <cmath>

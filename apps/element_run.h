@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/element_case.h"
-#include "dem/balance.h"
+#include "dem/assembly/energy_balance.h"
 #include "dem/collective_failure.h"
 #include "dem/io/state_file.h"
 

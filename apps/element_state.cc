@@ -1,6 +1,6 @@
 /// The state of an element run and what it has recorded, as named arrays, and back.
 #include "apps/element_run.h"
-#include "dem/distribute.h"
+#include "dem/assembly/distribute.h"
 #include "dem/io/rock_state.h"
 
 #include <algorithm>

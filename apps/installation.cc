@@ -2,7 +2,7 @@
 
 #include "apps/progress.h"
 #include "apps/ranks.h"
-#include "dem/distribute.h"
+#include "dem/assembly/distribute.h"
 
 #include <algorithm>
 #include <cmath>

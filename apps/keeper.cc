@@ -4,8 +4,8 @@
 #include "apps/run_guard.h"
 #include "apps/units.h"
 #include "apps/words.h"
+#include "dem/assembly/step.h"
 #include "dem/io/history.h"
-#include "dem/step.h"
 
 #include <algorithm>
 #include <charconv>

@@ -4,8 +4,8 @@
 
 #include "apps/material_keys.h"
 #include "apps/strength_keys.h"
+#include "dem/assembly/step.h"
 #include "dem/io/sample_file.h"
-#include "dem/step.h"
 
 namespace mergel::apps {
 

@@ -7,7 +7,7 @@
 /// or nearly so, and the flight changes no force.
 #pragma once
 
-#include "dem/step.h"
+#include "dem/assembly/step.h"
 
 #include <cstdint>
 

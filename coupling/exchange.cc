@@ -1,6 +1,6 @@
 #include "coupling/exchange.h"
 
-#include "dem/step.h"
+#include "dem/assembly/step.h"
 
 #include <cmath>
 #include <map>

@@ -1,6 +1,6 @@
 #include "dem/settle.h"
 
-#include "dem/distribute.h"
+#include "dem/assembly/distribute.h"
 #include "dem/growth.h"
 #include "dem/io/history.h"
 

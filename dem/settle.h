@@ -6,8 +6,8 @@
 /// sizes, and a contact's normal force, hence the pressure, follows from these alone.
 #pragma once
 
+#include "dem/assembly/step.h"
 #include "dem/packing.h"
-#include "dem/step.h"
 
 namespace mergel::dem {
 

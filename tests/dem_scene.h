@@ -1,9 +1,9 @@
 /// A handful of particles and their step, for the tests of the DEM core.
 #pragma once
 
+#include "dem/assembly/timestep.h"
 #include "dem/pairs/forces.h"
 #include "dem/particles/integrate.h"
-#include "dem/timestep.h"
 
 #include <array>
 #include <functional>

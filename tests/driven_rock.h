@@ -3,8 +3,8 @@
 
 #include "tests/dem_scene.h"
 
-#include "dem/averages.h"
-#include "dem/balance.h"
+#include "dem/assembly/averages.h"
+#include "dem/assembly/energy_balance.h"
 #include "dem/math/random.h"
 
 #include <array>

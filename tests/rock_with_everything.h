@@ -2,7 +2,7 @@
 /// one.
 #pragma once
 
-#include "dem/step.h"
+#include "dem/assembly/step.h"
 
 namespace mergel::dem::test {
 

@@ -2,8 +2,8 @@
 /// share; what is taken is whole, in ascending order.
 #pragma once
 
+#include "dem/assembly/step.h"
 #include "dem/io/state_file.h"
-#include "dem/step.h"
 
 namespace mergel::dem {
 

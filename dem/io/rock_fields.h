@@ -1,8 +1,8 @@
 /// The rock as ParaView sees it.
 #pragma once
 
+#include "dem/assembly/step.h"
 #include "dem/io/vtk.h"
-#include "dem/step.h"
 
 namespace mergel::dem {
 

@@ -11,8 +11,8 @@
 /// anew. Wall-clock times.
 #pragma once
 
+#include "dem/assembly/step.h"
 #include "dem/io/state_file.h"
-#include "dem/step.h"
 
 namespace mergel::dem {
 

@@ -2,8 +2,8 @@
 /// histories with grains. Forces on them are exact sums (rock_state.h).
 #pragma once
 
+#include "dem/assembly/step.h"
 #include "dem/io/state_file.h"
-#include "dem/step.h"
 
 namespace mergel::dem {
 

@@ -9,8 +9,8 @@
 ///   input     the last rank alone refuses its input, and the others wait for it
 #include "apps/run_guard.h"
 #include "apps/workloads.h"
+#include "dem/assembly/distribute.h"
 #include "dem/collective_failure.h"
-#include "dem/distribute.h"
 
 #include <cstdio>
 #include <limits>

@@ -13,9 +13,9 @@
 ///   restart    go on from this checkpoint, on any number of ranks
 ///   stop       write this checkpoint behind this step, and stop
 #include "apps/workloads.h"
-#include "dem/averages.h"
-#include "dem/balance.h"
-#include "dem/distribute.h"
+#include "dem/assembly/averages.h"
+#include "dem/assembly/distribute.h"
+#include "dem/assembly/energy_balance.h"
 #include "dem/io/checkpoint.h"
 #include "dem/io/rock_state.h"
 #include "dem/math/random.h"

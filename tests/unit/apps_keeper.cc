@@ -1,9 +1,9 @@
 #include "apps/keeper.h"
 
 #include "apps/case_file.h"
+#include "dem/assembly/step.h"
 #include "dem/error.h"
 #include "dem/io/history.h"
-#include "dem/step.h"
 #include "tests/temporary_folder.h"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 #include "apps/workloads.h"
 
-#include "dem/balance.h"
+#include "dem/assembly/energy_balance.h"
 #include "dem/error.h"
 
 #include <catch2/catch.hpp>

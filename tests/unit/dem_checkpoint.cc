@@ -1,4 +1,4 @@
-#include "dem/distribute.h"
+#include "dem/assembly/distribute.h"
 #include "dem/io/checkpoint.h"
 #include "dem/io/rock_state.h"
 #include "dem/io/sample_file.h"

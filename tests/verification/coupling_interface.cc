@@ -1,9 +1,9 @@
 // Verification ladder 17: force, moment and power cross the interface to round-off.
 #include "coupling/exchange.h"
 #include "coupling/ledger.h"
-#include "dem/balance.h"
+#include "dem/assembly/energy_balance.h"
+#include "dem/assembly/step.h"
 #include "dem/math/random.h"
-#include "dem/step.h"
 #include "tests/small_chamber.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "dem/step.h"
+#include "dem/assembly/step.h"
 
 #include <algorithm>
 #include <chrono>

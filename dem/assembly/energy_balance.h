@@ -1,7 +1,7 @@
 /// The energy book of a rock: what was put in is stored or lost.
 #pragma once
 
-#include "dem/step.h"
+#include "dem/assembly/step.h"
 
 namespace mergel::dem {
 

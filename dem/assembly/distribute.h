@@ -1,7 +1,7 @@
 /// A rock on several ranks: sharing it out, bringing it together, moving it between them.
 #pragma once
 
-#include "dem/step.h"
+#include "dem/assembly/step.h"
 
 namespace mergel::dem {
 

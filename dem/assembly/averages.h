@@ -3,7 +3,7 @@
 /// All sums are exact: the same bits on any number of ranks. Collective.
 #pragma once
 
-#include "dem/step.h"
+#include "dem/assembly/step.h"
 
 #include <vector>
 

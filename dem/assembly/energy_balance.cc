@@ -1,4 +1,4 @@
-#include "dem/balance.h"
+#include "dem/assembly/energy_balance.h"
 
 namespace mergel::dem {
 

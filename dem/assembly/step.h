@@ -1,10 +1,10 @@
 /// One DEM step, and the state that it moves.
 #pragma once
 
+#include "dem/assembly/timestep.h"
 #include "dem/pairs/neighbours.h"
 #include "dem/parallel/domain.h"
 #include "dem/particles/integrate.h"
-#include "dem/timestep.h"
 #include "dem/walls/mirror.h"
 #include "dem/walls/surfaces.h"
 #include "dem/walls/triangulated.h"

@@ -1,4 +1,4 @@
-#include "dem/averages.h"
+#include "dem/assembly/averages.h"
 
 #include <cmath>
 

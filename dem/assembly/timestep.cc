@@ -1,4 +1,4 @@
-#include "dem/timestep.h"
+#include "dem/assembly/timestep.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "dem/distribute.h"
+#include "dem/assembly/distribute.h"
 
 #include "dem/pairs/bond_record.h"
 
