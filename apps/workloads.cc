@@ -1,9 +1,9 @@
 #include "apps/workloads.h"
 
 #include "dem/error.h"
-#include "dem/growth.h"
 #include "dem/math/morton.h"
 #include "dem/math/random.h"
+#include "dem/specimen/growth.h"
 
 #include <algorithm>
 #include <cmath>

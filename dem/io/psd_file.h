@@ -2,7 +2,7 @@
 /// share by mass below that diameter.
 #pragma once
 
-#include "dem/psd.h"
+#include "dem/specimen/psd.h"
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 /// Specimens on disk (HDF5): grains and bonds, and what they were made from.
 #pragma once
 
-#include "dem/bonding.h"
+#include "dem/specimen/bonding.h"
 
 #include <cstdint>
 #include <filesystem>

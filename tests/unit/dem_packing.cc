@@ -1,8 +1,8 @@
 #include "tests/dem_scene.h"
 
-#include "dem/bonding.h"
 #include "dem/pairs/neighbours.h"
-#include "dem/porosity.h"
+#include "dem/specimen/bonding.h"
+#include "dem/specimen/porosity.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 #include "dem/error.h"
 #include "dem/io/psd_file.h"
-#include "dem/psd.h"
+#include "dem/specimen/psd.h"
 
 #include <catch2/catch.hpp>
 

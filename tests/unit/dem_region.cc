@@ -1,6 +1,6 @@
 #include "dem/error.h"
 #include "dem/math/random.h"
-#include "dem/region.h"
+#include "dem/specimen/region.h"
 
 #include <catch2/catch.hpp>
 

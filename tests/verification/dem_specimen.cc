@@ -1,7 +1,7 @@
 // Specimens in a periodic box: what the case asks for is what is made.
-#include "dem/bonding.h"
 #include "dem/pairs/neighbours.h"
-#include "dem/settle.h"
+#include "dem/specimen/bonding.h"
+#include "dem/specimen/compaction.h"
 
 #include <catch2/catch.hpp>
 

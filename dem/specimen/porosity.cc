@@ -1,4 +1,4 @@
-#include "dem/porosity.h"
+#include "dem/specimen/porosity.h"
 
 #include "dem/error.h"
 

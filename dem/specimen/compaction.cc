@@ -1,8 +1,8 @@
-#include "dem/settle.h"
+#include "dem/specimen/compaction.h"
 
 #include "dem/assembly/distribute.h"
-#include "dem/growth.h"
 #include "dem/io/history.h"
+#include "dem/specimen/growth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 /// Which grains of a specimen are bonded.
 #pragma once
 
-#include "dem/packing.h"
 #include "dem/pairs/pairs.h"
+#include "dem/specimen/packing.h"
 
 namespace mergel::dem {
 

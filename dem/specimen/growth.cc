@@ -1,4 +1,4 @@
-#include "dem/growth.h"
+#include "dem/specimen/growth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dem/pairs/neighbours.h"
-#include "dem/region.h"
+#include "dem/specimen/region.h"
 
 #include <functional>
 

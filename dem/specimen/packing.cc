@@ -1,11 +1,11 @@
-#include "dem/packing.h"
+#include "dem/specimen/packing.h"
 
-#include "dem/growth.h"
 #include "dem/math/morton.h"
 #include "dem/math/random.h"
 #include "dem/pairs/neighbours.h"
-#include "dem/porosity.h"
-#include "dem/settle.h"
+#include "dem/specimen/compaction.h"
+#include "dem/specimen/growth.h"
+#include "dem/specimen/porosity.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dem/particles/particles.h"
-#include "dem/region.h"
+#include "dem/specimen/region.h"
 
 namespace mergel::dem {
 

@@ -1,4 +1,4 @@
-#include "dem/psd.h"
+#include "dem/specimen/psd.h"
 
 #include "dem/error.h"
 

@@ -1,4 +1,4 @@
-#include "dem/region.h"
+#include "dem/specimen/region.h"
 
 #include "dem/error.h"
 

@@ -4,8 +4,8 @@
 
 #include "dem/laws/linear.h"
 #include "dem/particles/particles.h"
-#include "dem/psd.h"
-#include "dem/region.h"
+#include "dem/specimen/psd.h"
+#include "dem/specimen/region.h"
 
 #include <functional>
 #include <mpi.h>

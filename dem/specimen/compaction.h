@@ -7,7 +7,7 @@
 #pragma once
 
 #include "dem/assembly/step.h"
-#include "dem/packing.h"
+#include "dem/specimen/packing.h"
 
 namespace mergel::dem {
 

@@ -1,4 +1,4 @@
-#include "dem/bonding.h"
+#include "dem/specimen/bonding.h"
 
 #include "dem/pairs/neighbours.h"
 
