@@ -4,7 +4,7 @@
 #include "apps/output_folder.h"
 #include "apps/ranks.h"
 #include "apps/restart.h"
-#include "dem/driven_pair.h"
+#include "dem/element/driven_pair.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"
 #include "dem/io/table.h"

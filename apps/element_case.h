@@ -7,7 +7,7 @@
 #include "apps/material_keys.h"
 #include "apps/specimen_keys.h"
 #include "dem/assembly/averages.h"
-#include "dem/element_analysis.h"
+#include "dem/element/element_analysis.h"
 
 namespace mergel::apps {
 

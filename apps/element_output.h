@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/element_run.h"
-#include "dem/element_analysis.h"
+#include "dem/element/element_analysis.h"
 #include "dem/io/history.h"
 
 #include <filesystem>

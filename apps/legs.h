@@ -7,7 +7,7 @@
 ///     set leg 5 = axes x = fixed, y = 0.5 MPa, z = driven to axial strain = 20 %
 #pragma once
 
-#include "dem/stress_path.h"
+#include "dem/element/stress_path.h"
 
 #include <string>
 #include <vector>

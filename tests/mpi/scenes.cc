@@ -16,11 +16,11 @@
 #include "dem/assembly/averages.h"
 #include "dem/assembly/distribute.h"
 #include "dem/assembly/energy_balance.h"
+#include "dem/element/servo.h"
 #include "dem/io/checkpoint.h"
 #include "dem/io/rock_state.h"
 #include "dem/math/random.h"
 #include "dem/pairs/strength.h"
-#include "dem/servo.h"
 
 #include <cinttypes>
 #include <cstdio>

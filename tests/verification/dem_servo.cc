@@ -1,6 +1,6 @@
 #include "tests/driven_rock.h"
 
-#include "dem/servo.h"
+#include "dem/element/servo.h"
 
 #include <catch2/catch.hpp>
 

@@ -3,7 +3,7 @@
 /// Here, as in soil mechanics, compression is positive. The axis is z; x and y are lateral.
 #pragma once
 
-#include "dem/servo.h"
+#include "dem/element/servo.h"
 
 namespace mergel::dem {
 

@@ -1,4 +1,4 @@
-#include "dem/servo.h"
+#include "dem/element/servo.h"
 
 #include <cmath>
 

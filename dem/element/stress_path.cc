@@ -1,4 +1,4 @@
-#include "dem/stress_path.h"
+#include "dem/element/stress_path.h"
 
 #include "dem/error.h"
 

@@ -1,4 +1,4 @@
-#include "dem/element_analysis.h"
+#include "dem/element/element_analysis.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "dem/driven_pair.h"
+#include "dem/element/driven_pair.h"
 
 #include "dem/particles/integrate.h"
 
