@@ -1,8 +1,8 @@
 #include "apps/bench_checkpoint.h"
 
 #include "dem/assembly/distribute.h"
-#include "dem/io/checkpoint.h"
-#include "dem/io/rock_state.h"
+#include "dem/io/state/assembly_state.h"
+#include "dem/io/state/checkpoint.h"
 
 #include <iostream>
 

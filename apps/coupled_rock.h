@@ -5,7 +5,7 @@
 #include "coupling/exchange.h"
 #include "coupling/ledger.h"
 #include "dem/assembly/energy_balance.h"
-#include "dem/io/state_file.h"
+#include "dem/io/state/state_file.h"
 
 #include <functional>
 

@@ -1,7 +1,7 @@
 /// The state of a coupled rock as named arrays, and back.
 #include "apps/coupled_rock.h"
 #include "dem/assembly/distribute.h"
-#include "dem/io/rock_state.h"
+#include "dem/io/state/assembly_state.h"
 
 #include <utility>
 

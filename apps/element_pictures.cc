@@ -2,7 +2,7 @@
 
 #include "apps/ranks.h"
 #include "dem/assembly/distribute.h"
-#include "dem/io/rock_fields.h"
+#include "dem/io/assembly_fields.h"
 
 #include <cmath>
 

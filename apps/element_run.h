@@ -4,7 +4,7 @@
 #include "apps/element_case.h"
 #include "dem/assembly/energy_balance.h"
 #include "dem/collective_failure.h"
-#include "dem/io/state_file.h"
+#include "dem/io/state/state_file.h"
 
 namespace mergel::apps {
 

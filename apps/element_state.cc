@@ -1,7 +1,7 @@
 /// The state of an element run and what it has recorded, as named arrays, and back.
 #include "apps/element_run.h"
 #include "dem/assembly/distribute.h"
-#include "dem/io/rock_state.h"
+#include "dem/io/state/assembly_state.h"
 
 #include <algorithm>
 #include <type_traits>

@@ -1,7 +1,7 @@
 /// Pictures of a run for ParaView: a file of each kind at each time, and their series.
 #pragma once
 
-#include "dem/io/state_file.h"
+#include "dem/io/state/state_file.h"
 #include "dem/io/vtk.h"
 
 #include <filesystem>

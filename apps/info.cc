@@ -9,9 +9,9 @@
 #include "apps/output_folder.h"
 #include "apps/pile_output.h"
 #include "apps/ranks.h"
-#include "dem/io/checkpoint.h"
 #include "dem/io/history.h"
 #include "dem/io/sample_file.h"
+#include "dem/io/state/checkpoint.h"
 #include "dem/io/table.h"
 
 #include <boost/property_tree/json_parser.hpp>

@@ -4,7 +4,7 @@
 
 #include "apps/case_file.h"
 #include "apps/signals.h"
-#include "dem/io/checkpoint.h"
+#include "dem/io/state/checkpoint.h"
 
 #include <functional>
 #include <limits>

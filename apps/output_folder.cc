@@ -3,7 +3,7 @@
 #include "apps/words.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
-#include "dem/io/checkpoint.h"
+#include "dem/io/state/checkpoint.h"
 
 #include <algorithm>
 #include <array>

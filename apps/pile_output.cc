@@ -1,8 +1,8 @@
 #include "apps/pile_output.h"
 
 #include "dem/error.h"
+#include "dem/io/assembly_fields.h"
 #include "dem/io/atomic_file.h"
-#include "dem/io/rock_fields.h"
 
 #include <cstdio>
 

@@ -6,7 +6,7 @@
 #include "apps/output_folder.h"
 #include "apps/ranks.h"
 #include "apps/same_input.h"
-#include "dem/io/checkpoint.h"
+#include "dem/io/state/checkpoint.h"
 
 #include <optional>
 

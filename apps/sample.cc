@@ -7,8 +7,8 @@
 #include "apps/ranks.h"
 #include "apps/restart.h"
 #include "apps/specimen.h"
+#include "dem/io/assembly_fields.h"
 #include "dem/io/atomic_file.h"
-#include "dem/io/rock_fields.h"
 
 #include <iostream>
 

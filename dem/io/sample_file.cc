@@ -1,8 +1,8 @@
 #include "dem/io/sample_file.h"
 
 #include "dem/io/atomic_file.h"
-#include "dem/io/hdf5.h"
-#include "dem/io/open_bytes.h"
+#include "dem/io/hdf5/hdf5.h"
+#include "dem/io/hdf5/open_bytes.h"
 #include "dem/io/seal.h"
 
 #include <algorithm>

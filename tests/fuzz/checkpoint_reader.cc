@@ -3,8 +3,8 @@
 #include "tests/fuzz/reader.h"
 
 #include "dem/error.h"
-#include "dem/io/checkpoint.h"
-#include "dem/io/rock_state.h"
+#include "dem/io/state/assembly_state.h"
+#include "dem/io/state/checkpoint.h"
 #include "tests/fuzz/crafted_checkpoint.h"
 #include "tests/rock_with_everything.h"
 

@@ -1,8 +1,8 @@
 #include "tests/fuzz/crafted_checkpoint.h"
 
-#include "dem/io/checkpoint.h"
-#include "dem/io/rock_state.h"
 #include "dem/io/seal.h"
+#include "dem/io/state/assembly_state.h"
+#include "dem/io/state/checkpoint.h"
 #include "tests/fuzz/crafted_hdf5.h"
 #include "tests/rock_with_everything.h"
 

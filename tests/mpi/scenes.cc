@@ -17,8 +17,8 @@
 #include "dem/assembly/distribute.h"
 #include "dem/assembly/energy_balance.h"
 #include "dem/element/servo.h"
-#include "dem/io/checkpoint.h"
-#include "dem/io/rock_state.h"
+#include "dem/io/state/assembly_state.h"
+#include "dem/io/state/checkpoint.h"
 #include "dem/math/random.h"
 #include "dem/pairs/strength.h"
 

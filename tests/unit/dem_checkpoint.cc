@@ -1,8 +1,8 @@
 #include "dem/assembly/distribute.h"
-#include "dem/io/checkpoint.h"
-#include "dem/io/rock_state.h"
 #include "dem/io/sample_file.h"
 #include "dem/io/seal.h"
+#include "dem/io/state/assembly_state.h"
+#include "dem/io/state/checkpoint.h"
 #include "tests/rock_with_everything.h"
 #include "tests/temporary_folder.h"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dem/assembly/step.h"
-#include "dem/io/state_file.h"
+#include "dem/io/state/state_file.h"
 
 namespace mergel::dem {
 

@@ -1,7 +1,7 @@
 /// An HDF5 file that is read from memory: what HDF5 reads is what was summed.
 #pragma once
 
-#include "dem/io/hdf5.h"
+#include "dem/io/hdf5/hdf5.h"
 
 #include <filesystem>
 #include <string>

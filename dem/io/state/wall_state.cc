@@ -1,6 +1,6 @@
-#include "dem/io/wall_state.h"
+#include "dem/io/state/wall_state.h"
 
-#include "dem/io/state_rows.h"
+#include "dem/io/state/state_rows.h"
 
 #include <string>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "dem/io/plain_hdf5.h"
+#include "dem/io/hdf5/plain_hdf5.h"
 
 #include "dem/error.h"
 

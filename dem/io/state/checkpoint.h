@@ -1,7 +1,7 @@
 /// Checkpoints of a run: what it is, and its state, in a file of its own.
 #pragma once
 
-#include "dem/io/state_file.h"
+#include "dem/io/state/state_file.h"
 
 namespace mergel::dem {
 

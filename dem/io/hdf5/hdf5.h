@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dem/error.h"
-#include "dem/io/plain_hdf5.h"
+#include "dem/io/hdf5/plain_hdf5.h"
 
 #include <hdf5.h>
 

@@ -1,7 +1,7 @@
 /// Rows of a state's arrays: vectors as three columns, and rows in ascending order.
 #pragma once
 
-#include "dem/io/state_file.h"
+#include "dem/io/state/state_file.h"
 #include "dem/notation.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "dem/io/hdf5.h"
+#include "dem/io/hdf5/hdf5.h"
 
 namespace mergel::dem::hdf5 {
 

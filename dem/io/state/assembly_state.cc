@@ -1,8 +1,8 @@
-#include "dem/io/rock_state.h"
+#include "dem/io/state/assembly_state.h"
 
-#include "dem/io/grain_state.h"
-#include "dem/io/state_rows.h"
-#include "dem/io/wall_state.h"
+#include "dem/io/state/particle_state.h"
+#include "dem/io/state/state_rows.h"
+#include "dem/io/state/wall_state.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "dem/io/checkpoint.h"
+#include "dem/io/state/checkpoint.h"
 
 #include "dem/io/seal.h"
 

@@ -1,4 +1,4 @@
-#include "dem/io/rock_fields.h"
+#include "dem/io/assembly_fields.h"
 
 #include <cmath>
 

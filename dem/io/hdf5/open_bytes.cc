@@ -1,4 +1,4 @@
-#include "dem/io/open_bytes.h"
+#include "dem/io/hdf5/open_bytes.h"
 
 namespace mergel::dem::hdf5 {
 

@@ -1,6 +1,6 @@
-#include "dem/io/grain_state.h"
+#include "dem/io/state/particle_state.h"
 
-#include "dem/io/state_rows.h"
+#include "dem/io/state/state_rows.h"
 #include "dem/pairs/bond_record.h"
 
 namespace mergel::dem {
