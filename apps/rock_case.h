@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/specimen_keys.h"
-#include "fem/far_field.h"
+#include "fem/far_field/far_field.h"
 
 #include <optional>
 

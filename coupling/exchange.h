@@ -4,7 +4,7 @@
 
 #include "coupling/transfer.h"
 #include "dem/walls/triangulated.h"
-#include "fem/far_field.h"
+#include "fem/far_field/far_field.h"
 
 namespace mergel::coupling {
 

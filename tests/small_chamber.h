@@ -1,7 +1,7 @@
 /// A small chamber of the paper's rock around a DEM region, for the far-field tests.
 #pragma once
 
-#include "fem/far_field.h"
+#include "fem/far_field/far_field.h"
 
 /// 25 x 40 mm around 10 x 12 mm, coarse: a few hundred cells.
 inline mergel::fem::FarFieldSpec small_chamber()

@@ -1,6 +1,6 @@
-#include "fem/boundary_ids.h"
-#include "fem/far_field.h"
-#include "fem/far_field_mesh.h"
+#include "fem/far_field/boundary_ids.h"
+#include "fem/far_field/far_field.h"
+#include "fem/far_field/far_field_mesh.h"
 #include "tests/small_chamber.h"
 
 #include <Eigen/Geometry>

@@ -1,9 +1,9 @@
 // The far field as the coupling uses it: design.md §§8, 10.
-#include "fem/boundary_ids.h"
-#include "fem/elastic_solid.h"
-#include "fem/far_field.h"
-#include "fem/far_field_mesh.h"
-#include "fem/linear_solver.h"
+#include "fem/far_field/boundary_ids.h"
+#include "fem/far_field/far_field.h"
+#include "fem/far_field/far_field_mesh.h"
+#include "fem/solid/elastic_solid.h"
+#include "fem/solver/linear_solver.h"
 #include "tests/small_chamber.h"
 
 #include <Eigen/Geometry>

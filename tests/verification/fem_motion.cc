@@ -2,8 +2,8 @@
 // and 15.
 #include "tests/verification/fem_solids.h"
 
-#include "fem/leapfrog.h"
-#include "fem/linear_solver.h"
+#include "fem/solid/leapfrog.h"
+#include "fem/solver/linear_solver.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // The static equations of fem/ against closed forms: design.md §8, ladder item 15.
 #include "tests/verification/fem_solids.h"
 
-#include "fem/linear_solver.h"
+#include "fem/solver/linear_solver.h"
 
 #include <deal.II/grid/grid_tools.h>
 

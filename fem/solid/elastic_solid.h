@@ -1,8 +1,8 @@
 /// Linear elastic solid on a hexahedral mesh: assembles the arrays of a DiscreteSolid.
 #pragma once
 
-#include "fem/discrete_solid.h"
-#include "fem/elasticity.h"
+#include "fem/solid/discrete_solid.h"
+#include "fem/solid/elasticity.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/dofs/dof_handler.h>

@@ -1,4 +1,4 @@
-#include "fem/discrete_solid.h"
+#include "fem/solid/discrete_solid.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,8 +1,8 @@
 /// Explicit motion of an elastic solid: leapfrog with local non-viscous damping.
 #pragma once
 
-#include "fem/discrete_solid.h"
-#include "fem/shared_product.h"
+#include "fem/solid/discrete_solid.h"
+#include "fem/solver/shared_product.h"
 
 #include <span>
 

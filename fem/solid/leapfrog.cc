@@ -1,4 +1,4 @@
-#include "fem/leapfrog.h"
+#include "fem/solid/leapfrog.h"
 
 #include <cstring>
 #include <stdexcept>

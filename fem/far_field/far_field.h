@@ -1,7 +1,7 @@
 /// The linear elastic far field around a DEM region: what coupling/ and apps/ see of fem/.
 #pragma once
 
-#include "fem/leapfrog.h"
+#include "fem/solid/leapfrog.h"
 
 #include <Eigen/Core>
 
@@ -82,7 +82,7 @@ public:
   void solve_static(std::span<const Eigen::Vector3d> f_interface);
 
   /// One leapfrog step: kick with the forces [N] on the interface nodes at the present u =
-  /// u^n, which sets v^{n+1/2}, then drift, which sets u^{n+1}. See fem/leapfrog.h.
+  /// u^n, which sets v^{n+1/2}, then drift, which sets u^{n+1}. See fem/solid/leapfrog.h.
   void step(double dt, std::span<const Eigen::Vector3d> f_interface);
 
   /// 2/omega_max [s], without any factor of safety (none for damping either).
@@ -91,7 +91,7 @@ public:
   double stable_time_step(std::span<const double> k_interface = {}) const;
 
   double unbalanced_ratio() const; ///< see Leapfrog::unbalanced_ratio
-  Energies energies() const;       ///< see Energies in fem/leapfrog.h
+  Energies energies() const;       ///< see Energies in fem/solid/leapfrog.h
 
   const Motion& motion() const; ///< the state: all that a restart needs
   void restore(Motion state);   ///< throws std::invalid_argument if of another mesh

@@ -1,4 +1,4 @@
-#include "fem/shared_product.h"
+#include "fem/solver/shared_product.h"
 
 #include <numeric>
 

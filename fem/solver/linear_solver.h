@@ -1,7 +1,7 @@
 /// Static solves K u = f with PETSc, on one process.
 #pragma once
 
-#include "fem/discrete_solid.h"
+#include "fem/solid/discrete_solid.h"
 
 namespace mergel::fem {
 

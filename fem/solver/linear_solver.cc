@@ -1,4 +1,4 @@
-#include "fem/linear_solver.h"
+#include "fem/solver/linear_solver.h"
 
 #include <petscksp.h>
 
