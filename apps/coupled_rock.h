@@ -3,7 +3,7 @@
 
 #include "apps/rock_case.h"
 #include "coupling/exchange.h"
-#include "coupling/ledger.h"
+#include "coupling/interface_balance.h"
 #include "dem/assembly/energy_balance.h"
 #include "dem/io/state/state_file.h"
 

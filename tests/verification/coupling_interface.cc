@@ -1,6 +1,6 @@
 // Verification ladder 17: force, moment and power cross the interface to round-off.
 #include "coupling/exchange.h"
-#include "coupling/ledger.h"
+#include "coupling/interface_balance.h"
 #include "dem/assembly/energy_balance.h"
 #include "dem/assembly/step.h"
 #include "dem/math/random.h"

@@ -1,4 +1,4 @@
-#include "coupling/ledger.h"
+#include "coupling/interface_balance.h"
 
 #include <cmath>
 
