@@ -7,8 +7,8 @@
 ///   overlap   it lies in its neighbour
 ///   nowhere   its place is no number
 ///   input     the last rank alone refuses its input, and the others wait for it
+#include "apps/bench/workloads.h"
 #include "apps/run_guard.h"
-#include "apps/workloads.h"
 #include "dem/assembly/distribute.h"
 #include "dem/collective_failure.h"
 

@@ -12,7 +12,7 @@
 ///              doubled histories are compared
 ///   restart    go on from this checkpoint, on any number of ranks
 ///   stop       write this checkpoint behind this step, and stop
-#include "apps/workloads.h"
+#include "apps/bench/workloads.h"
 #include "dem/assembly/averages.h"
 #include "dem/assembly/distribute.h"
 #include "dem/assembly/energy_balance.h"

@@ -1,4 +1,4 @@
-#include "apps/workloads.h"
+#include "apps/bench/workloads.h"
 
 #include "dem/assembly/energy_balance.h"
 #include "dem/error.h"

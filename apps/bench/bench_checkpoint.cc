@@ -1,4 +1,4 @@
-#include "apps/bench_checkpoint.h"
+#include "apps/bench/bench_checkpoint.h"
 
 #include "dem/assembly/distribute.h"
 #include "dem/io/state/assembly_state.h"

@@ -1,4 +1,4 @@
-#include "apps/workloads.h"
+#include "apps/bench/workloads.h"
 
 #include "dem/error.h"
 #include "dem/math/morton.h"

@@ -1,7 +1,7 @@
 /// What a checkpoint of a workload costs.
 #pragma once
 
-#include "apps/workloads.h"
+#include "apps/bench/workloads.h"
 
 #include <filesystem>
 
