@@ -1,6 +1,6 @@
 /// mergel bond: one bonded pair of spheres along any path of u_n, u_s and theta.
+#include "apps/case/material_keys.h"
 #include "apps/jobs.h"
-#include "apps/material_keys.h"
 #include "apps/output_folder.h"
 #include "apps/ranks.h"
 #include "apps/restart.h"

@@ -1,7 +1,7 @@
 /// Parsing of what follows the name of a job.
 #pragma once
 
-#include "apps/words.h"
+#include "apps/case/words.h"
 #include "dem/error.h"
 
 #include <CLI/CLI.hpp>

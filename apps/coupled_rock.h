@@ -1,7 +1,7 @@
 /// A rock in its far field, from specimen to equilibrium: what a job then drives.
 #pragma once
 
-#include "apps/rock_case.h"
+#include "apps/case/coupled_case.h"
 #include "coupling/exchange.h"
 #include "coupling/interface_balance.h"
 #include "dem/assembly/energy_balance.h"

@@ -1,8 +1,8 @@
 #include "apps/element_case.h"
 
+#include "apps/case/units.h"
+#include "apps/case/words.h"
 #include "apps/specimen.h"
-#include "apps/units.h"
-#include "apps/words.h"
 #include "dem/error.h"
 #include "dem/io/history.h"
 #include "dem/io/table.h"

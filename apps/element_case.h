@@ -1,11 +1,11 @@
 /// Case of `mergel element`: a rock, the legs it is led along, and how they are read.
 #pragma once
 
-#include "apps/case_file.h"
+#include "apps/case/case_file.h"
+#include "apps/case/material_keys.h"
+#include "apps/case/specimen_keys.h"
 #include "apps/keeper.h"
 #include "apps/legs.h"
-#include "apps/material_keys.h"
-#include "apps/specimen_keys.h"
 #include "dem/assembly/averages.h"
 #include "dem/element/element_analysis.h"
 

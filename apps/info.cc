@@ -1,6 +1,6 @@
 /// mergel info: what a sample, a checkpoint or a results folder is, and whether it is
 /// whole.
-#include "apps/case_scan.h"
+#include "apps/case/case_scan.h"
 #include "apps/command_line.h"
 #include "apps/element_output.h"
 #include "apps/element_pictures.h"

@@ -1,9 +1,9 @@
 #include "apps/keeper.h"
 
+#include "apps/case/units.h"
+#include "apps/case/words.h"
 #include "apps/progress.h"
 #include "apps/run_guard.h"
-#include "apps/units.h"
-#include "apps/words.h"
 #include "dem/assembly/step.h"
 #include "dem/io/history.h"
 

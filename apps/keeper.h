@@ -2,7 +2,7 @@
 /// run is told to stop.
 #pragma once
 
-#include "apps/case_file.h"
+#include "apps/case/case_file.h"
 #include "apps/signals.h"
 #include "dem/io/state/checkpoint.h"
 

@@ -1,7 +1,7 @@
 #include "apps/legs.h"
 
-#include "apps/units.h"
-#include "apps/words.h"
+#include "apps/case/units.h"
+#include "apps/case/words.h"
 #include "dem/error.h"
 #include "dem/io/history.h"
 

@@ -1,5 +1,6 @@
 /// The program: reads the command line, starts MPI, runs one job.
 
+#include "apps/case/words.h"
 #include "apps/command_line.h"
 #include "apps/jobs.h"
 #include "apps/keeper.h"
@@ -7,7 +8,6 @@
 #include "apps/restart.h"
 #include "apps/run_guard.h"
 #include "apps/signals.h"
-#include "apps/words.h"
 #include "dem/error.h"
 #include "fem/runtime.h"
 

@@ -1,6 +1,6 @@
 #include "apps/output_folder.h"
 
-#include "apps/words.h"
+#include "apps/case/words.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/state/checkpoint.h"

@@ -1,4 +1,5 @@
 /// mergel pile: install a cone-ended pile by jacking into bonded rock.
+#include "apps/case/words.h"
 #include "apps/installation.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
@@ -7,7 +8,6 @@
 #include "apps/restart.h"
 #include "apps/shared_folder.h"
 #include "apps/specimen.h"
-#include "apps/words.h"
 #include "dem/io/atomic_file.h"
 
 #include <algorithm>

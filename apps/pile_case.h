@@ -1,8 +1,8 @@
 /// Case of `mergel pile`: rock, pile and output.
 #pragma once
 
+#include "apps/case/coupled_case.h"
 #include "apps/keeper.h"
-#include "apps/rock_case.h"
 
 namespace mergel::apps {
 

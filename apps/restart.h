@@ -1,7 +1,7 @@
 /// --restart: finding the checkpoint, and comparing its case with the one that is to go on.
 #pragma once
 
-#include "apps/case_file.h"
+#include "apps/case/case_file.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
 #include "apps/ranks.h"

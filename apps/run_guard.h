@@ -6,7 +6,7 @@
 /// memory and deal.II's errors are 2, all else is 3.
 #pragma once
 
-#include "apps/words.h"
+#include "apps/case/words.h"
 #include "dem/collective_failure.h"
 
 #include <mpi.h>

@@ -1,7 +1,7 @@
 #include "apps/same_input.h"
 
+#include "apps/case/words.h"
 #include "apps/ranks.h"
-#include "apps/words.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 /// another node, would give them different cases without a word.
 #pragma once
 
-#include "apps/case_file.h"
+#include "apps/case/case_file.h"
 
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
 /// mergel sample: make a specimen and write it to a file that later runs read.
-#include "apps/case_scan.h"
+#include "apps/case/case_scan.h"
 #include "apps/coupled_rock.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"

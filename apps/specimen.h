@@ -1,7 +1,7 @@
 /// The specimen of a case: read from a file or made, and what is said of it.
 #pragma once
 
-#include "apps/specimen_keys.h"
+#include "apps/case/specimen_keys.h"
 
 namespace mergel::apps {
 

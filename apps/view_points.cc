@@ -1,6 +1,6 @@
 #include "apps/view_points.h"
 
-#include "apps/words.h"
+#include "apps/case/words.h"
 #include "dem/error.h"
 
 #include <cstdlib>

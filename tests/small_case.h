@@ -1,7 +1,7 @@
 /// A small case with a key of each kind, read from files in a folder of the test's own.
 #pragma once
 
-#include "apps/case_file.h"
+#include "apps/case/case_file.h"
 #include "dem/error.h"
 #include "tests/temporary_folder.h"
 

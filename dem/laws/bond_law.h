@@ -1,5 +1,5 @@
 /// The bond laws that a run can choose from. A new one is a header beside this one, a name
-/// in the list below, its keys in apps/material_keys.cc, and its test; whatever it lacks is
+/// in the list below, its keys in apps/case/material_keys.cc, and its test; whatever it lacks is
 /// a compile error.
 #pragma once
 

@@ -1,6 +1,6 @@
 #include "apps/keeper.h"
 
-#include "apps/case_file.h"
+#include "apps/case/case_file.h"
 #include "dem/assembly/step.h"
 #include "dem/error.h"
 #include "dem/io/history.h"

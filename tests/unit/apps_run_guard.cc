@@ -1,6 +1,6 @@
 #include "apps/run_guard.h"
 
-#include "apps/words.h"
+#include "apps/case/words.h"
 #include "dem/error.h"
 
 #include <catch2/catch.hpp>

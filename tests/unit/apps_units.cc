@@ -1,4 +1,4 @@
-#include "apps/units.h"
+#include "apps/case/units.h"
 
 #include "dem/error.h"
 

@@ -1,7 +1,7 @@
 /// A case as text: complete with its defaults, compared with an earlier one, and the help on
 /// its keys.
-#include "apps/case_keys.h"
-#include "apps/words.h"
+#include "apps/case/case_keys.h"
+#include "apps/case/words.h"
 #include "dem/io/atomic_file.h"
 
 #include <algorithm>

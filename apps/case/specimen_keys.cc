@@ -1,4 +1,4 @@
-#include "apps/specimen_keys.h"
+#include "apps/case/specimen_keys.h"
 
 #include "dem/io/history.h"
 #include "dem/io/psd_file.h"

@@ -1,7 +1,7 @@
 /// Section `Strength variability` of a case: how strengths vary from grain to grain.
 #pragma once
 
-#include "apps/case_file.h"
+#include "apps/case/case_file.h"
 #include "dem/pairs/strength.h"
 
 namespace mergel::apps {

@@ -1,9 +1,9 @@
 /// Declaring the keys of a case: what each kind allows, and how its text sets a variable.
-#include "apps/case_file.h"
+#include "apps/case/case_file.h"
 
-#include "apps/case_keys.h"
-#include "apps/units.h"
-#include "apps/words.h"
+#include "apps/case/case_keys.h"
+#include "apps/case/units.h"
+#include "apps/case/words.h"
 #include "dem/error.h"
 
 #include <algorithm>

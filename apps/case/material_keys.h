@@ -1,7 +1,7 @@
 /// The keys of bond and contact, the same in every job.
 #pragma once
 
-#include "apps/case_file.h"
+#include "apps/case/case_file.h"
 #include "dem/pairs/forces.h"
 
 namespace mergel::apps {

@@ -2,7 +2,7 @@
 /// field, motion.
 #pragma once
 
-#include "apps/specimen_keys.h"
+#include "apps/case/specimen_keys.h"
 #include "fem/far_field/far_field.h"
 
 #include <optional>

@@ -2,8 +2,8 @@
 /// was read. For the sources of CaseFile alone.
 #pragma once
 
-#include "apps/case_file.h"
-#include "apps/case_scan.h"
+#include "apps/case/case_file.h"
+#include "apps/case/case_scan.h"
 
 #include <map>
 

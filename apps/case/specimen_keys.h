@@ -2,8 +2,8 @@
 /// bonding; with it how strengths vary. The same in every job that makes a specimen.
 #pragma once
 
-#include "apps/material_keys.h"
-#include "apps/strength_keys.h"
+#include "apps/case/material_keys.h"
+#include "apps/case/strength_keys.h"
 #include "dem/assembly/step.h"
 #include "dem/io/sample_file.h"
 

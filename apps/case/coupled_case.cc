@@ -1,4 +1,4 @@
-#include "apps/rock_case.h"
+#include "apps/case/coupled_case.h"
 
 #include "dem/io/history.h"
 

@@ -1,6 +1,6 @@
-#include "apps/strength_keys.h"
+#include "apps/case/strength_keys.h"
 
-#include "apps/material_keys.h"
+#include "apps/case/material_keys.h"
 
 #include <sstream>
 

@@ -1,6 +1,6 @@
-#include "apps/range.h"
+#include "apps/case/range.h"
 
-#include "apps/units.h"
+#include "apps/case/units.h"
 
 #include <cmath>
 #include <utility>

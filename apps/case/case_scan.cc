@@ -1,6 +1,6 @@
-#include "apps/case_scan.h"
+#include "apps/case/case_scan.h"
 
-#include "apps/words.h"
+#include "apps/case/words.h"
 #include "dem/error.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include "apps/case_keys.h"
+#include "apps/case/case_keys.h"
 
-#include "apps/words.h"
+#include "apps/case/words.h"
 #include "dem/error.h"
 
 #include <algorithm>

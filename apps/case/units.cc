@@ -1,6 +1,6 @@
-#include "apps/units.h"
+#include "apps/case/units.h"
 
-#include "apps/words.h"
+#include "apps/case/words.h"
 #include "dem/error.h"
 
 #include <udunits2.h>

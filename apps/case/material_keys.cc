@@ -1,4 +1,4 @@
-#include "apps/material_keys.h"
+#include "apps/case/material_keys.h"
 
 namespace mergel::apps {
 

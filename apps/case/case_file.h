@@ -11,7 +11,7 @@
 /// `#` for comments, `\` to go on in the next line), one file, sections not nested.
 #pragma once
 
-#include "apps/range.h"
+#include "apps/case/range.h"
 
 #include <concepts>
 #include <cstdint>
