@@ -2,8 +2,8 @@
 /// whole.
 #include "apps/case/case_scan.h"
 #include "apps/command_line.h"
-#include "apps/element_output.h"
-#include "apps/element_pictures.h"
+#include "apps/element/element_output.h"
+#include "apps/element/element_pictures.h"
 #include "apps/folder_lock.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"

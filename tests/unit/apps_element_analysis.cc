@@ -1,5 +1,5 @@
 /// What mergel element reads off the records of its legs.
-#include "apps/element_output.h"
+#include "apps/element/element_output.h"
 
 #include <catch2/catch.hpp>
 

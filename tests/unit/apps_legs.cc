@@ -1,4 +1,4 @@
-#include "apps/legs.h"
+#include "apps/element/loading_stages.h"
 
 #include "dem/error.h"
 

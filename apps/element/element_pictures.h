@@ -1,7 +1,7 @@
 /// Pictures of an element test for ParaView: its grains and bonds, as a series in time.
 #pragma once
 
-#include "apps/element_run.h"
+#include "apps/element/element_run.h"
 #include "apps/frames.h"
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 /// The state of an element run and what it has recorded, as named arrays, and back.
-#include "apps/element_run.h"
+#include "apps/element/element_run.h"
 #include "dem/assembly/distribute.h"
 #include "dem/io/state/assembly_state.h"
 

@@ -1,7 +1,7 @@
 /// A rock led along the legs of an element test, and what is recorded of it.
 #pragma once
 
-#include "apps/element_case.h"
+#include "apps/element/element_case.h"
 #include "dem/assembly/energy_balance.h"
 #include "dem/collective_failure.h"
 #include "dem/io/state/state_file.h"

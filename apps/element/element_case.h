@@ -4,8 +4,8 @@
 #include "apps/case/case_file.h"
 #include "apps/case/material_keys.h"
 #include "apps/case/specimen_keys.h"
+#include "apps/element/loading_stages.h"
 #include "apps/keeper.h"
-#include "apps/legs.h"
 #include "dem/assembly/averages.h"
 #include "dem/element/element_analysis.h"
 

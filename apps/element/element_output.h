@@ -1,7 +1,7 @@
 /// Files of `mergel element`: history.csv and summary.json, and the closing words.
 #pragma once
 
-#include "apps/element_run.h"
+#include "apps/element/element_run.h"
 #include "dem/element/element_analysis.h"
 #include "dem/io/history.h"
 

@@ -1,4 +1,4 @@
-#include "apps/legs.h"
+#include "apps/element/loading_stages.h"
 
 #include "apps/case/units.h"
 #include "apps/case/words.h"

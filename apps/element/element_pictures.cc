@@ -1,4 +1,4 @@
-#include "apps/element_pictures.h"
+#include "apps/element/element_pictures.h"
 
 #include "apps/ranks.h"
 #include "dem/assembly/distribute.h"

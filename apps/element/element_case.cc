@@ -1,4 +1,4 @@
-#include "apps/element_case.h"
+#include "apps/element/element_case.h"
 
 #include "apps/case/units.h"
 #include "apps/case/words.h"

@@ -1,4 +1,4 @@
-#include "apps/element_output.h"
+#include "apps/element/element_output.h"
 
 #include "apps/case/words.h"
 #include "apps/progress.h"

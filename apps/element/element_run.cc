@@ -1,4 +1,4 @@
-#include "apps/element_run.h"
+#include "apps/element/element_run.h"
 
 #include "dem/assembly/distribute.h"
 

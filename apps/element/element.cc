@@ -1,6 +1,6 @@
 /// mergel element: lead a periodic cell of rock along any path of stress and strain.
-#include "apps/element_output.h"
-#include "apps/element_pictures.h"
+#include "apps/element/element_output.h"
+#include "apps/element/element_pictures.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
 #include "apps/progress.h"
