@@ -7,7 +7,7 @@
 #include "apps/folder_lock.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
-#include "apps/pile_output.h"
+#include "apps/pile/pile_output.h"
 #include "apps/ranks.h"
 #include "dem/io/history.h"
 #include "dem/io/sample_file.h"

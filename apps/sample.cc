@@ -3,7 +3,7 @@
 #include "apps/coupled_rock.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
-#include "apps/pile_case.h"
+#include "apps/pile/pile_case.h"
 #include "apps/ranks.h"
 #include "apps/restart.h"
 #include "apps/specimen.h"

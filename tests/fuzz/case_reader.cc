@@ -1,7 +1,7 @@
 // The case file of the job pile, with every kind of key.
 #include "tests/fuzz/reader.h"
 
-#include "apps/pile_case.h"
+#include "apps/pile/pile_case.h"
 #include "dem/error.h"
 
 #include <fstream>

@@ -1,5 +1,5 @@
 #include "apps/coupled_rock.h"
-#include "apps/pile_case.h"
+#include "apps/pile/pile_case.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "apps/pile_case.h"
+#include "apps/pile/pile_case.h"
 
 #include "dem/io/history.h"
 

@@ -1,4 +1,4 @@
-#include "apps/pile_summary.h"
+#include "apps/pile/pile_summary.h"
 
 #include "apps/case/words.h"
 #include "apps/progress.h"

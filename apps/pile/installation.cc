@@ -1,4 +1,4 @@
-#include "apps/installation.h"
+#include "apps/pile/installation.h"
 
 #include "apps/progress.h"
 #include "apps/ranks.h"

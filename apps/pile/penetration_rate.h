@@ -1,7 +1,7 @@
 /// The velocity at which a pile is pushed.
 #pragma once
 
-#include "apps/pile_case.h"
+#include "apps/pile/pile_case.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 /// What is left to say when a pile stands at its final depth: summary.json, and words.
 #pragma once
 
-#include "apps/installation.h"
+#include "apps/pile/installation.h"
 
 namespace mergel::apps {
 

@@ -3,7 +3,7 @@
 
 #include "apps/coupled_rock.h"
 #include "apps/frames.h"
-#include "apps/pile_case.h"
+#include "apps/pile/pile_case.h"
 #include "dem/io/history.h"
 
 namespace mergel::apps {

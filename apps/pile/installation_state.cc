@@ -1,5 +1,5 @@
 /// An installation kept in a state and taken up again: its numbers and counts, in one order.
-#include "apps/installation.h"
+#include "apps/pile/installation.h"
 
 #include <cmath>
 #include <type_traits>

@@ -1,9 +1,9 @@
 /// mergel pile: install a cone-ended pile by jacking into bonded rock.
 #include "apps/case/words.h"
-#include "apps/installation.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
-#include "apps/pile_summary.h"
+#include "apps/pile/installation.h"
+#include "apps/pile/pile_summary.h"
 #include "apps/ranks.h"
 #include "apps/restart.h"
 #include "apps/shared_folder.h"

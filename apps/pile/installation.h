@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/coupled_rock.h"
-#include "apps/jack.h"
-#include "apps/pile_output.h"
+#include "apps/pile/penetration_rate.h"
+#include "apps/pile/pile_output.h"
 
 #include <functional>
 #include <string>

@@ -1,4 +1,4 @@
-#include "apps/pile_output.h"
+#include "apps/pile/pile_output.h"
 
 #include "dem/error.h"
 #include "dem/io/assembly_fields.h"
