@@ -1,12 +1,12 @@
 /// mergel sample: make a specimen and write it to a file that later runs read.
 #include "apps/case/case_scan.h"
-#include "apps/coupled_rock.h"
+#include "apps/coupled/coupled_system.h"
 #include "apps/jobs.h"
 #include "apps/output_folder.h"
 #include "apps/pile/pile_case.h"
 #include "apps/ranks.h"
 #include "apps/restart.h"
-#include "apps/specimen.h"
+#include "apps/specimen/specimen.h"
 #include "dem/io/assembly_fields.h"
 #include "dem/io/atomic_file.h"
 

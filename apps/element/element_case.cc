@@ -2,7 +2,7 @@
 
 #include "apps/case/units.h"
 #include "apps/case/words.h"
-#include "apps/specimen.h"
+#include "apps/specimen/specimen.h"
 #include "dem/error.h"
 #include "dem/io/history.h"
 #include "dem/io/table.h"

@@ -1,7 +1,7 @@
 /// The installation of a pile in a rock at rest: it is driven down, and books are kept.
 #pragma once
 
-#include "apps/coupled_rock.h"
+#include "apps/coupled/coupled_system.h"
 #include "apps/pile/penetration_rate.h"
 #include "apps/pile/pile_output.h"
 

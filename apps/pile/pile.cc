@@ -7,7 +7,7 @@
 #include "apps/ranks.h"
 #include "apps/restart.h"
 #include "apps/shared_folder.h"
-#include "apps/specimen.h"
+#include "apps/specimen/specimen.h"
 #include "dem/io/atomic_file.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 /// What a pile run leaves behind: history.csv, fields for ParaView, summary.
 #pragma once
 
-#include "apps/coupled_rock.h"
+#include "apps/coupled/coupled_system.h"
 #include "apps/frames.h"
 #include "apps/pile/pile_case.h"
 #include "dem/io/history.h"

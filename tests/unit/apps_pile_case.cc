@@ -1,4 +1,4 @@
-#include "apps/coupled_rock.h"
+#include "apps/coupled/coupled_system.h"
 #include "apps/pile/pile_case.h"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 /// The state of a coupled rock as named arrays, and back.
-#include "apps/coupled_rock.h"
+#include "apps/coupled/coupled_system.h"
 #include "dem/assembly/distribute.h"
 #include "dem/io/state/assembly_state.h"
 

@@ -1,4 +1,4 @@
-#include "apps/specimen.h"
+#include "apps/specimen/specimen.h"
 
 #include "apps/progress.h"
 #include "apps/ranks.h"
