@@ -1,13 +1,13 @@
 /// The program: reads the command line, starts MPI, runs one job.
 
 #include "apps/case/words.h"
-#include "apps/command_line.h"
-#include "apps/jobs.h"
-#include "apps/keeper.h"
-#include "apps/ranks.h"
-#include "apps/restart.h"
-#include "apps/run_guard.h"
-#include "apps/signals.h"
+#include "apps/run/checkpoint_scheduler.h"
+#include "apps/run/command_line.h"
+#include "apps/run/jobs.h"
+#include "apps/run/ranks.h"
+#include "apps/run/restart.h"
+#include "apps/run/run_guard.h"
+#include "apps/run/signals.h"
 #include "dem/error.h"
 #include "fem/runtime.h"
 

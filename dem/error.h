@@ -1,4 +1,4 @@
-/// The two faults that a run can meet, by who can mend them. apps/run_guard.h turns them
+/// The two faults that a run can meet, by who can mend them. apps/run/run_guard.h turns them
 /// into exit codes: InputError 1, NumericalError 2, anything else 3 (a bug).
 #pragma once
 

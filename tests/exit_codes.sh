@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Every job says by its exit code how it ended: 0 done, 1 bad input, 2 numerical or system failure
-# (apps/run_guard.h; 3, a bug, cannot be had from outside: tests/unit/apps_run_guard.cc). The
+# (apps/run/run_guard.h; 3, a bug, cannot be had from outside: tests/unit/apps_run_guard.cc). The
 # system fails here by a limit on the size of a file, which stands for a full disk.
 #
 # usage: tests/exit_codes.sh MERGEL

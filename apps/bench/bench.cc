@@ -1,9 +1,9 @@
 /// mergel bench: what a step costs on this machine, part by part; tests/bench says of what.
 #include "apps/bench/bench_checkpoint.h"
 #include "apps/bench/workloads.h"
-#include "apps/command_line.h"
-#include "apps/jobs.h"
-#include "apps/ranks.h"
+#include "apps/run/command_line.h"
+#include "apps/run/jobs.h"
+#include "apps/run/ranks.h"
 #include "dem/assembly/distribute.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"

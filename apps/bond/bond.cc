@@ -1,9 +1,9 @@
 /// mergel bond: one bonded pair of spheres along any path of u_n, u_s and theta.
 #include "apps/case/material_keys.h"
-#include "apps/jobs.h"
-#include "apps/output_folder.h"
-#include "apps/ranks.h"
-#include "apps/restart.h"
+#include "apps/run/jobs.h"
+#include "apps/run/output_folder.h"
+#include "apps/run/ranks.h"
+#include "apps/run/restart.h"
 #include "dem/element/driven_pair.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"

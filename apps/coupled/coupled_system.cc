@@ -1,6 +1,6 @@
 #include "apps/coupled/coupled_system.h"
 
-#include "apps/progress.h"
+#include "apps/run/progress.h"
 #include "dem/assembly/distribute.h"
 #include "dem/io/history.h"
 

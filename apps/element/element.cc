@@ -1,12 +1,12 @@
 /// mergel element: lead a periodic cell of rock along any path of stress and strain.
 #include "apps/element/element_output.h"
 #include "apps/element/element_pictures.h"
-#include "apps/jobs.h"
-#include "apps/output_folder.h"
-#include "apps/progress.h"
-#include "apps/ranks.h"
-#include "apps/restart.h"
-#include "apps/shared_folder.h"
+#include "apps/run/jobs.h"
+#include "apps/run/output_folder.h"
+#include "apps/run/progress.h"
+#include "apps/run/ranks.h"
+#include "apps/run/restart.h"
+#include "apps/run/shared_folder.h"
 
 #include <algorithm>
 #include <cmath>

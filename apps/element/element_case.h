@@ -5,7 +5,7 @@
 #include "apps/case/material_keys.h"
 #include "apps/case/specimen_keys.h"
 #include "apps/element/loading_stages.h"
-#include "apps/keeper.h"
+#include "apps/run/checkpoint_scheduler.h"
 #include "dem/assembly/averages.h"
 #include "dem/element/element_analysis.h"
 

@@ -1,7 +1,7 @@
 #include "apps/element/element_output.h"
 
 #include "apps/case/words.h"
-#include "apps/progress.h"
+#include "apps/run/progress.h"
 #include "dem/io/atomic_file.h"
 
 #include <algorithm>

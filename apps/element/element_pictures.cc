@@ -1,6 +1,6 @@
 #include "apps/element/element_pictures.h"
 
-#include "apps/ranks.h"
+#include "apps/run/ranks.h"
 #include "dem/assembly/distribute.h"
 #include "dem/io/assembly_fields.h"
 

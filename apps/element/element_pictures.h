@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/element/element_run.h"
-#include "apps/frames.h"
+#include "apps/run/frames.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "apps/pile/installation.h"
 
-#include "apps/progress.h"
-#include "apps/ranks.h"
+#include "apps/run/progress.h"
+#include "apps/run/ranks.h"
 #include "dem/assembly/distribute.h"
 
 #include <algorithm>

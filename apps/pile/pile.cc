@@ -1,12 +1,12 @@
 /// mergel pile: install a cone-ended pile by jacking into bonded rock.
 #include "apps/case/words.h"
-#include "apps/jobs.h"
-#include "apps/output_folder.h"
 #include "apps/pile/installation.h"
 #include "apps/pile/pile_summary.h"
-#include "apps/ranks.h"
-#include "apps/restart.h"
-#include "apps/shared_folder.h"
+#include "apps/run/jobs.h"
+#include "apps/run/output_folder.h"
+#include "apps/run/ranks.h"
+#include "apps/run/restart.h"
+#include "apps/run/shared_folder.h"
 #include "apps/specimen/specimen.h"
 #include "dem/io/atomic_file.h"
 

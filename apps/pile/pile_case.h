@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/case/coupled_case.h"
-#include "apps/keeper.h"
+#include "apps/run/checkpoint_scheduler.h"
 
 namespace mergel::apps {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "apps/coupled/coupled_system.h"
-#include "apps/frames.h"
 #include "apps/pile/pile_case.h"
+#include "apps/run/frames.h"
 #include "dem/io/history.h"
 
 namespace mergel::apps {

@@ -1,7 +1,7 @@
 #include "apps/pile/pile_summary.h"
 
 #include "apps/case/words.h"
-#include "apps/progress.h"
+#include "apps/run/progress.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"
 

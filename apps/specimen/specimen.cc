@@ -1,8 +1,8 @@
 #include "apps/specimen/specimen.h"
 
-#include "apps/progress.h"
-#include "apps/ranks.h"
-#include "apps/same_input.h"
+#include "apps/run/progress.h"
+#include "apps/run/ranks.h"
+#include "apps/run/same_input.h"
 #include "dem/io/history.h"
 
 #include <sstream>

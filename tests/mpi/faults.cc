@@ -8,7 +8,7 @@
 ///   nowhere   its place is no number
 ///   input     the last rank alone refuses its input, and the others wait for it
 #include "apps/bench/workloads.h"
-#include "apps/run_guard.h"
+#include "apps/run/run_guard.h"
 #include "dem/assembly/distribute.h"
 #include "dem/collective_failure.h"
 

@@ -1,4 +1,4 @@
-#include "apps/keeper.h"
+#include "apps/run/checkpoint_scheduler.h"
 
 #include "apps/case/case_file.h"
 #include "dem/assembly/step.h"

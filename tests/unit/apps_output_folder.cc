@@ -1,6 +1,6 @@
-#include "apps/output_folder.h"
+#include "apps/run/output_folder.h"
 
-#include "apps/restart.h"
+#include "apps/run/restart.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
 #include "tests/temporary_folder.h"

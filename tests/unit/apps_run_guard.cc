@@ -1,4 +1,4 @@
-#include "apps/run_guard.h"
+#include "apps/run/run_guard.h"
 
 #include "apps/case/words.h"
 #include "dem/error.h"

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "apps/case/case_file.h"
-#include "apps/jobs.h"
-#include "apps/output_folder.h"
-#include "apps/ranks.h"
-#include "apps/same_input.h"
+#include "apps/run/jobs.h"
+#include "apps/run/output_folder.h"
+#include "apps/run/ranks.h"
+#include "apps/run/same_input.h"
 #include "dem/io/state/checkpoint.h"
 
 #include <optional>

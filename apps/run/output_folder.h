@@ -2,7 +2,7 @@
 /// good.
 #pragma once
 
-#include "apps/folder_lock.h"
+#include "apps/run/folder_lock.h"
 
 #include <cstdint>
 #include <filesystem>

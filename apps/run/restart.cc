@@ -1,7 +1,7 @@
-#include "apps/restart.h"
+#include "apps/run/restart.h"
 
 #include "apps/case/words.h"
-#include "apps/frames.h"
+#include "apps/run/frames.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
 

@@ -1,4 +1,4 @@
-#include "apps/signals.h"
+#include "apps/run/signals.h"
 
 #include <csignal>
 

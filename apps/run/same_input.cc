@@ -1,7 +1,7 @@
-#include "apps/same_input.h"
+#include "apps/run/same_input.h"
 
 #include "apps/case/words.h"
-#include "apps/ranks.h"
+#include "apps/run/ranks.h"
 
 #include <algorithm>
 

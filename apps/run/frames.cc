@@ -1,4 +1,4 @@
-#include "apps/frames.h"
+#include "apps/run/frames.h"
 
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"

@@ -1,4 +1,4 @@
-#include "apps/folder_lock.h"
+#include "apps/run/folder_lock.h"
 
 #include "dem/error.h"
 

@@ -1,9 +1,9 @@
-#include "apps/keeper.h"
+#include "apps/run/checkpoint_scheduler.h"
 
 #include "apps/case/units.h"
 #include "apps/case/words.h"
-#include "apps/progress.h"
-#include "apps/run_guard.h"
+#include "apps/run/progress.h"
+#include "apps/run/run_guard.h"
 #include "dem/assembly/step.h"
 #include "dem/io/history.h"
 

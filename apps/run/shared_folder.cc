@@ -1,6 +1,6 @@
-#include "apps/shared_folder.h"
+#include "apps/run/shared_folder.h"
 
-#include "apps/ranks.h"
+#include "apps/run/ranks.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/shared_file.h"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/case/case_file.h"
-#include "apps/signals.h"
+#include "apps/run/signals.h"
 #include "dem/io/state/checkpoint.h"
 
 #include <functional>
