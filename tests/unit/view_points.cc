@@ -1,4 +1,4 @@
-#include "apps/view_points.h"
+#include "apps/view/points.h"
 
 #include "dem/error.h"
 

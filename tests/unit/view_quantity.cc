@@ -1,4 +1,4 @@
-#include "apps/view_quantity.h"
+#include "apps/view/quantity.h"
 
 #include "dem/error.h"
 

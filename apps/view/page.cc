@@ -1,4 +1,4 @@
-#include "apps/view_page.h"
+#include "apps/view/page.h"
 
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"

@@ -1,4 +1,4 @@
-#include "apps/view_curve.h"
+#include "apps/view/curve.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 /// How the loads of a bond follow its shrinking yield surface, as the paper's Fig. 5.
 #pragma once
 
-#include "apps/view_bond.h"
-#include "apps/view_page.h"
+#include "apps/view/bond.h"
+#include "apps/view/page.h"
 
 #include <vector>
 

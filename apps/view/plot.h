@@ -1,8 +1,8 @@
 /// Curves and points in a panel whose axes fit them.
 #pragma once
 
-#include "apps/view_curve.h"
-#include "apps/view_page.h"
+#include "apps/view/curve.h"
+#include "apps/view/page.h"
 
 #include <string>
 #include <vector>

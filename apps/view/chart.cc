@@ -1,6 +1,6 @@
-#include "apps/view_chart.h"
+#include "apps/view/chart.h"
 
-#include "apps/view_curve.h"
+#include "apps/view/curve.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 /// Curves in panels: their axes, their strokes and the key that tells them apart.
 #pragma once
 
-#include "apps/view_page.h"
+#include "apps/view/page.h"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "apps/view_results.h"
+#include "apps/view/results.h"
 
 #include "dem/error.h"
 #include "dem/io/vtk.h"

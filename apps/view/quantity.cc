@@ -1,8 +1,8 @@
-#include "apps/view_quantity.h"
+#include "apps/view/quantity.h"
 
 #include "apps/case/units.h"
 #include "apps/case/words.h"
-#include "apps/view_curve.h"
+#include "apps/view/curve.h"
 #include "dem/error.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 /// How far the rock has moved since the first frame of a run.
 #pragma once
 
-#include "apps/view_results.h"
+#include "apps/view/results.h"
 
 namespace mergel::apps {
 

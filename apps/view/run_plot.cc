@@ -1,4 +1,4 @@
-#include "apps/view_run_plot.h"
+#include "apps/view/run_plot.h"
 
 #include "apps/case/words.h"
 #include "dem/error.h"

@@ -1,6 +1,6 @@
-#include "apps/view_bond_loads.h"
+#include "apps/view/bond_loads.h"
 
-#include "apps/view_plot.h"
+#include "apps/view/plot.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "apps/view_element.h"
+#include "apps/view/element.h"
 
 #include "dem/error.h"
 

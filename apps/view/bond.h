@@ -1,7 +1,7 @@
 /// What `mergel bond` left in its folder, ready to be drawn.
 #pragma once
 
-#include "apps/view_run_name.h"
+#include "apps/view/run_name.h"
 #include "dem/io/table.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "apps/view_scene.h"
+#include "apps/view/scene.h"
 
 #include <algorithm>
 #include <array>

@@ -2,16 +2,16 @@
 /// of bond runs: loads.png and surface.png; of element runs: element.png or isotropic.png;
 /// of any: curve.png.
 
-#include "apps/view_bond.h"
-#include "apps/view_bond_loads.h"
-#include "apps/view_bond_surface.h"
-#include "apps/view_chart.h"
-#include "apps/view_displacement.h"
-#include "apps/view_element.h"
-#include "apps/view_points.h"
-#include "apps/view_results.h"
-#include "apps/view_run_plot.h"
-#include "apps/view_scene.h"
+#include "apps/view/bond.h"
+#include "apps/view/bond_loads.h"
+#include "apps/view/bond_surface.h"
+#include "apps/view/chart.h"
+#include "apps/view/displacement.h"
+#include "apps/view/element.h"
+#include "apps/view/points.h"
+#include "apps/view/results.h"
+#include "apps/view/run_plot.h"
+#include "apps/view/scene.h"
 #include "dem/error.h"
 #include "dem/io/table.h"
 

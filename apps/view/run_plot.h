@@ -1,10 +1,10 @@
 /// Runs on each other in panels of any two quantities, points above them, one key for all.
 #pragma once
 
-#include "apps/view_page.h"
-#include "apps/view_points.h"
-#include "apps/view_quantity.h"
-#include "apps/view_run_name.h"
+#include "apps/view/page.h"
+#include "apps/view/points.h"
+#include "apps/view/quantity.h"
+#include "apps/view/run_name.h"
 #include "dem/io/table.h"
 
 #include <vector>

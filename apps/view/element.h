@@ -1,7 +1,7 @@
 /// Runs of `mergel element` as papers on the mechanics of rock draw them.
 #pragma once
 
-#include "apps/view_run_plot.h"
+#include "apps/view/run_plot.h"
 #include "dem/io/table.h"
 
 #include <string>

@@ -1,8 +1,8 @@
 /// Points that are laid over the curves of runs: measured, digitised or computed elsewhere.
 #pragma once
 
-#include "apps/view_plot.h"
-#include "apps/view_quantity.h"
+#include "apps/view/plot.h"
+#include "apps/view/quantity.h"
 
 #include <array>
 #include <filesystem>

@@ -1,8 +1,8 @@
 /// What a bond bears against what it is made to do, as the paper's Fig. 4.
 #pragma once
 
-#include "apps/view_bond.h"
-#include "apps/view_page.h"
+#include "apps/view/bond.h"
+#include "apps/view/page.h"
 
 #include <vector>
 

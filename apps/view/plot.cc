@@ -1,4 +1,4 @@
-#include "apps/view_plot.h"
+#include "apps/view/plot.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 /// far field.
 #pragma once
 
-#include "apps/view_page.h"
-#include "apps/view_results.h"
+#include "apps/view/page.h"
+#include "apps/view/results.h"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "apps/view_bond.h"
+#include "apps/view/bond.h"
 
 #include "dem/error.h"
 

@@ -1,4 +1,4 @@
-#include "apps/view_label.h"
+#include "apps/view/label.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "apps/view_displacement.h"
+#include "apps/view/displacement.h"
 
 #include "dem/error.h"
 

@@ -1,7 +1,7 @@
 /// Words on curves, where there is room for them.
 #pragma once
 
-#include "apps/view_page.h"
+#include "apps/view/page.h"
 
 #include <cstddef>
 #include <string>

@@ -1,7 +1,7 @@
 /// Curves over the depth of a pile, drawn as soil mechanics draws them: depth downwards.
 #pragma once
 
-#include "apps/view_page.h"
+#include "apps/view/page.h"
 #include "dem/io/table.h"
 
 namespace mergel::apps {

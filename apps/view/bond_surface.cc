@@ -1,7 +1,7 @@
-#include "apps/view_bond_surface.h"
+#include "apps/view/bond_surface.h"
 
-#include "apps/view_curve.h"
-#include "apps/view_label.h"
+#include "apps/view/curve.h"
+#include "apps/view/label.h"
 #include "dem/notation.h"
 
 #include <algorithm>
