@@ -6,7 +6,7 @@
 #include "dem/io/state/assembly_state.h"
 #include "dem/io/state/checkpoint.h"
 #include "tests/fuzz/crafted_checkpoint.h"
-#include "tests/rock_with_everything.h"
+#include "tests/support/rock_with_everything.h"
 
 #include <cmath>
 

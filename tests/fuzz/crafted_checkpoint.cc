@@ -4,7 +4,7 @@
 #include "dem/io/state/assembly_state.h"
 #include "dem/io/state/checkpoint.h"
 #include "tests/fuzz/crafted_hdf5.h"
-#include "tests/rock_with_everything.h"
+#include "tests/support/rock_with_everything.h"
 
 #include <algorithm>
 #include <type_traits>

@@ -6,7 +6,7 @@
 
 namespace mergel::fuzz {
 
-/// Write the checkpoint of the rock of tests/rock_with_everything.h on its way.
+/// Write the checkpoint of the rock of tests/support/rock_with_everything.h on its way.
 void write_good_checkpoint(const std::filesystem::path& file);
 
 /// The same, with what the bytes choose (crafted_hdf5.h), sealed. The first byte tells the

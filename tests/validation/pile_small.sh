@@ -4,7 +4,7 @@
 #
 # usage: tests/validation/pile_small.sh MERGEL
 set -euo pipefail
-root=$(dirname "$(dirname "$(dirname "$(readlink -f "$0")")")")
+root=$(cd "$(dirname "$0")/../.." && pwd)
 mergel=$(readlink -f "$1")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -42,7 +42,7 @@ claim "q_c between 1 and 2 D_p is 3 to 15 UCS" \
   "$(mean_q elastic/history.csv 1 2) > 12e6 && $(mean_q elastic/history.csv 1 2) < 60e6"
 claim "q_c rises with depth" "$(mean_q elastic/history.csv 1 2) > $(mean_q elastic/history.csv 0 1)"
 # Once grains break, the two runs part: single grains, 4.7 to D_p, make the curves differ by 10 MPa at any one depth.
-# That rigid walls are stiffer is tested where nothing breaks, in tests/end_to_end.sh.
+# That rigid walls are stiffer is tested where nothing breaks, in tests/program/end_to_end.sh.
 echo "mean q_c from 0 to 2 D_p: elastic $(mean_q elastic/history.csv 0 2), rigid $(mean_q rigid/history.csv 0 2) Pa"
 
 echo "$n_failed failed"

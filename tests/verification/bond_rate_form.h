@@ -11,7 +11,7 @@
 /// n^2 + v^2 = 1.
 #pragma once
 
-#include "tests/dem_scene.h"
+#include "tests/support/dem_scene.h"
 
 namespace mergel::dem::test {
 

@@ -17,7 +17,7 @@
 ///   damping, which replaces the dashpot in test 3, would brake sliding and spin as well.
 #pragma once
 
-#include "tests/dem_scene.h"
+#include "tests/support/dem_scene.h"
 
 #include "dem/walls/surfaces.h"
 

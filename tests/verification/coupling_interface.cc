@@ -4,7 +4,7 @@
 #include "dem/assembly/energy_balance.h"
 #include "dem/assembly/step.h"
 #include "dem/math/random.h"
-#include "tests/small_chamber.h"
+#include "tests/support/small_chamber.h"
 
 #include <catch2/catch.hpp>
 

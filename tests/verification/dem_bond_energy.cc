@@ -1,5 +1,5 @@
 /// Energy of one bond through the force kernel: what its ends put in is stored or lost.
-#include "tests/dem_scene.h"
+#include "tests/support/dem_scene.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 /// One bond, yielding, damaged and with a sliding contact beside it, seen in a mirror, from
 /// elsewhere, from its other end and in any lane of the kernel.
-#include "tests/dem_scene.h"
+#include "tests/support/dem_scene.h"
 
 #include <catch2/catch.hpp>
 

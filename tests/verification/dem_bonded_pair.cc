@@ -1,4 +1,4 @@
-#include "tests/dem_scene.h"
+#include "tests/support/dem_scene.h"
 
 #include <catch2/catch.hpp>
 

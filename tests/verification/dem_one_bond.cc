@@ -1,6 +1,6 @@
 /// One bond under imposed motion against its closed forms: design, section 12 (the paper's
 /// Table 1 left, R = 30 mm), and Eqs. 2, 3, 6 of the paper.
-#include "tests/dem_scene.h"
+#include "tests/support/dem_scene.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 /// The elastic-brittle parallel bond against its closed forms: Potyondy and Cundall (2004),
 /// A bonded-particle model for rock, Int. J. Rock Mech. Min. Sci. 41, 1329, Eqs. 12-16.
-#include "tests/dem_scene.h"
+#include "tests/support/dem_scene.h"
 
 #include <catch2/catch.hpp>
 

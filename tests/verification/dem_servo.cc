@@ -1,4 +1,4 @@
-#include "tests/driven_rock.h"
+#include "tests/support/driven_rock.h"
 
 #include "dem/element/servo.h"
 

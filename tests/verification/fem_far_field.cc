@@ -4,7 +4,7 @@
 #include "fem/far_field/far_field_mesh.h"
 #include "fem/solid/elastic_solid.h"
 #include "fem/solver/linear_solver.h"
-#include "tests/small_chamber.h"
+#include "tests/support/small_chamber.h"
 
 #include <Eigen/Geometry>
 

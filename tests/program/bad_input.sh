@@ -1,0 +1,286 @@
+#!/usr/bin/env bash
+# Every piece of bad input gets one line that says what is wrong, exit code 1, and leaves the
+# disk as it was.
+#
+# usage: tests/program/bad_input.sh MERGEL [CASE.prm]
+#   MERGEL    the program
+#   CASE.prm  a good case of the job pile; default apps/cases/pile_small.prm
+# Prints one line for each check that fails, then a count; exit code 1 if any failed.
+set -euo pipefail
+
+[ $# -ge 1 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 1; }
+root=$(cd "$(dirname "$0")/../.." && pwd)
+mergel=$(readlink -f "$1")
+case_file=$(readlink -f "${2:-$root/apps/cases/pile_small.prm}")
+
+# A specimen that is made in seconds, and is not the one of CASE.prm.
+tiny=(--set "Specimen/diameter=6 mm" --set "Specimen/height=6 mm")
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+n_checks=0 n_failed=0
+
+# Names and contents of all files below the working folder.
+tree() { find . -mindepth 1 -printf '%y %p %l\n' -type f -exec cksum {} + | sort; }
+
+fail()
+{
+  n_failed=$((n_failed + 1))
+  printf 'FAILED  %s: %s\n' "$name" "$1"
+  sed 's/^/        | /' "$log"
+}
+
+# refuse NAME PATTERN ARGUMENT...: mergel ARGUMENT... must be refused with one line that matches
+# the extended regular expression PATTERN as a whole.
+refuse()
+{
+  local name=$1 pattern=$2 before code=0
+  shift 2
+  local log=$work.log
+  n_checks=$((n_checks + 1))
+  before=$(tree)
+  timeout 120 "$mergel" "$@" >"$log" 2>&1 </dev/null || code=$?
+  sed -i -E '/^specimen +[0-9.]+ %/d' "$log" # how far one was, where it takes long to be refused
+  if [ "$code" -ne 1 ]; then
+    fail "exit code $code, not 1"
+  elif [ "$(wc -l <"$log")" -ne 1 ]; then
+    fail "not one line"
+  elif ! grep -Eqx -- "$pattern" "$log"; then
+    fail "does not match $pattern"
+  elif [ "$(tree)" != "$before" ]; then
+    diff <(echo "$before") <(tree) >>"$log" || true
+    fail "the disk is changed"
+  fi
+  rm -f "$log"
+}
+
+# refuse_set NAME PATTERN SETTING...: the same for --set over the good case.
+refuse_set()
+{
+  local name=$1 pattern=$2 options=() setting
+  shift 2
+  for setting in "$@"; do options+=(--set "$setting"); done
+  refuse "$name" "$pattern" pile good.prm "${options[@]}" --output out
+}
+
+# edited NAME SED: the good case, edited; it must differ.
+edited()
+{
+  sed -E "$2" good.prm >"$1"
+  if cmp -s good.prm "$1"; then
+    echo "bad_input.sh: \"$2\" changes nothing in $case_file" >&2
+    exit 1
+  fi
+}
+
+# In a file a relative path starts at the file's folder: keep those of the good case valid.
+sed -E "s#^([[:space:]]*set[^=]*=[[:space:]]*)(\.\.?/)#\1$(dirname "$case_file")/\2#" \
+  "$case_file" >good.prm
+
+## the command line
+refuse "no job" 'mergel: no job is given\. .*'
+refuse "unknown job" 'mergel: unknown job "piel"\. Did you mean "pile"\?' piel good.prm
+refuse "no case" 'mergel pile: no case file is given\. .*' pile
+refuse "unknown option" 'mergel pile: .*--outptu.*' pile good.prm --outptu out
+refuse "malformed --set" '--set "diameter": is not understood\. .*' pile good.prm --set diameter
+
+## the case file
+refuse "missing case file" 'none\.prm: no such case file\. .*' pile none.prm --output out
+mkdir folder
+refuse "folder as case file" 'folder: is a folder, not a case file\. .*' pile folder --output out
+edited case.prm 's/set diameter( *=.*mm)/set diametre\1/'
+refuse "unknown key" 'case\.prm:[0-9]+: (Pile|Specimen)/diametre = .*: unknown key .*"diameter".*' \
+  pile case.prm --output out
+edited case.prm 's/subsection Pile/subsection Piles/'
+refuse "unknown section" 'case\.prm:[0-9]+: unknown section "Piles"\. Did you mean "Pile"\?' \
+  pile case.prm --output out
+edited case.prm '/subsection Pile/,/end/s/(set diameter *= *[0-9.]+) *[a-z]+/\1/'
+refuse "value without unit" 'case\.prm:[0-9]+: Pile/diameter = [0-9.]+: has no unit.*mm\.' \
+  pile case.prm --output out
+edited case.prm '/subsection Pile/,/end/s/(set diameter *= *).*/\11.4 MPa/'
+refuse "wrong dimension" \
+  'case\.prm:[0-9]+: Pile/diameter = 1\.4 MPa: unit "MPa" has the wrong dimension.*mm\.' \
+  pile case.prm --output out
+edited case.prm '/subsection Bond/,/end/s/(set tensile strength *= *).*/\1-1 MPa/'
+refuse "negative strength" \
+  'case\.prm:[0-9]+: Bond/tensile strength = -1 MPa: must satisfy .*> 0.*' \
+  pile case.prm --output out
+edited case.prm '0,/^end/s/^end//'
+refuse "section left open" 'case\.prm:[0-9]+: subsection .*"end".*' pile case.prm --output out
+{ cat good.prm; printf 'subsection Pile\n  set diameter = 2 mm\nend\n'; } >case.prm
+refuse "key given twice" 'case\.prm:[0-9]+: Pile/diameter = 2 mm: already set in line [0-9]+\. .*' \
+  pile case.prm --output out
+
+## values that do not go together; each names a key and where it stands
+place='((good\.prm(:[0-9]+)?: )|--set )'
+refuse_set "porosity that spheres cannot reach" "${place}Specimen/porosity = 0\.2: .*" \
+  "Specimen/porosity=0.2"
+refuse_set "porosity that only pressure reaches" "${place}Specimen/porosity = 0\.485: .*between some 0\.[0-9]+ and 1; .*" \
+  "Specimen/porosity=0.485" "Specimen/diameter=6 mm" "Specimen/height=6 mm"
+refuse_set "grains too large for the region" "${place}Specimen/inner upscaling = 20: .*" \
+  "Specimen/inner upscaling=20"
+refuse_set "more grains than a machine holds" "${place}Specimen/smallest diameter = .*: .*2e7.*" \
+  "Specimen/smallest diameter=0.001 mm" "Specimen/largest diameter=0.002 mm"
+refuse_set "pile wider than the DEM region" "${place}(Pile|Specimen)/diameter = .*: .*" \
+  "Pile/diameter=20 mm"
+refuse_set "DEM region wider than the far field" "${place}(Specimen|Far field)/.* = .*: .*" \
+  "Specimen/diameter=30 mm"
+
+## the output folder
+echo text >file
+refuse "a file in the way" 'output folder file: .*file" is in its way and is no folder\. .*' \
+  pile good.prm --output file
+refuse "a file above" 'output folder file/results: .*file" is in its way and is no folder\. .*' \
+  pile good.prm --output file/results
+mkdir earlier earlier/fields
+echo text >earlier/history.csv
+echo text >earlier/fields/particles_0000.vtp
+refuse "an earlier run" \
+  'output folder earlier: holds an earlier run \(fields/particles_0000\.vtp\)\. .*--overwrite\.' \
+  pile good.prm --output earlier
+refuse "bad input with --overwrite" '--set Pile/diameter = 1\.4: has no unit.*' \
+  pile good.prm --output earlier --overwrite --set "Pile/diameter=1.4"
+if [ "$(id -u)" -ne 0 ]; then # root may write everywhere
+  mkdir locked
+  chmod a-w locked
+  refuse "a folder without permission" 'output folder locked: cannot be written: .*' \
+    pile good.prm --output locked
+fi
+
+## sample files
+echo "no sample" >text.h5
+refuse_set "missing sample" '.*missing\.h5: there is no such file' "Specimen/file=missing.h5"
+refuse_set "folder as sample" '.*folder: is not a file' "Specimen/file=folder"
+refuse_set "text as sample" '.*text\.h5: is no sample: it is not an HDF5 file; .*' "Specimen/file=text.h5"
+if ! "$mergel" sample good.prm "${tiny[@]}" --output tiny >tiny.log 2>&1; then
+  echo "bad_input.sh: mergel sample failed:" >&2
+  cat tiny.log >&2
+  exit 1
+fi
+size=$(stat -c %s tiny/sample.h5)
+head -c $((size / 2)) tiny/sample.h5 >half.h5
+head -c $((size - 1)) tiny/sample.h5 >short.h5
+head -c 100 tiny/sample.h5 >head.h5
+: >empty.h5
+for sample in half short; do
+  refuse_set "truncated sample ($sample)" ".*$sample\.h5: is no sample, or is truncated; .*" \
+    "Specimen/file=$sample.h5"
+done
+cp tiny/sample.h5 changed.h5
+printf X | dd of=changed.h5 bs=1 seek=$((size / 2)) conv=notrunc status=none
+refuse_set "changed sample" '.*changed\.h5: is damaged .*' "Specimen/file=changed.h5"
+for sample in head empty; do
+  refuse_set "truncated sample ($sample)" ".*$sample\.h5: is no sample.*" \
+    "Specimen/file=$sample.h5"
+done
+refuse_set "sample of another case" '.*tiny/sample\.h5: was made with diameter = .*the case asks for .*' \
+  "Specimen/file=tiny/sample.h5"
+refuse "sample that --overwrite would remove" \
+  'output folder tiny: --overwrite would remove .*sample\.h5, which this run reads\. .*' \
+  pile good.prm "${tiny[@]}" --set "Specimen/file=tiny/sample.h5" --output tiny --overwrite
+
+## specimens
+sed -E "s#\.\./\.\./#$root/#" "$root/apps/cases/sample_rock.prm" >rock.prm
+sample_set()
+{
+  local name=$1 pattern=$2 options=() setting
+  shift 2
+  for setting in "$@"; do options+=(--set "$setting"); done
+  refuse "$name" "$pattern" sample rock.prm "${options[@]}" --output out
+}
+head='diameter [mm],passing [%]'
+sizes() { printf '%s\n' "$head" "$@" >sizes.csv; }
+curve='--set Specimen/size table = sizes\.csv: .*sizes\.csv'
+sample_set "sizes that are not there" "$curve: cannot be read\. .*" "Specimen/size table=sizes.csv"
+sizes 0.1,0 0.2,40 0.15,100
+sample_set "sizes that do not ascend" "$curve:4: diameter = 0\.15 mm: must be above .*" \
+  "Specimen/size table=sizes.csv"
+sizes 0.1,0 0.2,40 0.25,30 0.3,100
+sample_set "passing that falls" "$curve:4: passing = 30 %: must not be below .*" \
+  "Specimen/size table=sizes.csv"
+sizes 0.1,0 0.2,40
+sample_set "a curve without its end" "$curve:3: passing = 40 %: must be 100 .*" \
+  "Specimen/size table=sizes.csv"
+sample_set "unknown shape" '--set Specimen/shape = sphere: must be one of .*' "Specimen/shape=sphere"
+sample_set "a key of another shape" '--set Specimen/diameter = 5 mm: is a key of `shape` = .*' \
+  "Specimen/diameter=5 mm"
+sed -E '/upscaling ratio/d; s/(set upscaling *= *)uniform/\1graded/' rock.prm >graded.prm
+refuse "graded without an axis" \
+  'graded\.prm:[0-9]+: Specimen/upscaling = graded: a periodic box has no axis: .*' \
+  sample graded.prm --output out --set "Specimen/inner upscaling=2" \
+  --set "Specimen/outer upscaling=3" --set "Specimen/inner radius=1 mm" --set "Specimen/outer radius=2 mm"
+sample_set "a box smaller than its grains" '--set Specimen/upscaling ratio = 80: the largest grain, .*' \
+  "Specimen/upscaling ratio=80"
+sample_set "a box in which a grain meets its own image" \
+  '--set Specimen/upscaling ratio = 10: the largest grain, 1\.337 mm, .*wider than .*' \
+  "Specimen/upscaling ratio=10" "Specimen/edge z=2.9 mm"
+sample_set "a pressure of nothing" '--set Specimen/target pressure = 0 Pa: must satisfy .*> 0.*' \
+  "Specimen/target pressure=0 Pa"
+sample_set "a box too dense for its shells" '--set Specimen/porosity = 0\.4: must be at least 0\.[0-9]+ and at most some 0\.[0-9]+, .*' \
+  "Specimen/porosity=0.4"
+sample_set "a box too loose for its pressure" \
+  '--set Specimen/porosity = 0\.7: cannot be met together with .*lock between 0\.[0-9]+ .*' \
+  "Specimen/porosity=0.7" "Specimen/upscaling ratio=14" "Specimen/target pressure=50 kPa"
+variability="Strength variability"
+sample_set "unknown distribution" \
+  "--set $variability/distribution = Weibul: must be one of .*Did you mean \"Weibull\"\?" \
+  "$variability/distribution=Weibul"
+sample_set "a distribution without its width" ".*$variability/coefficient of variation.*" \
+  "$variability/distribution=log-normal"
+sample_set "strengths that vary too much" \
+  "--set $variability/coefficient of variation = 1\.5: must .*" \
+  "$variability/distribution=log-normal" "$variability/coefficient of variation=1.5"
+refuse_set "a width without a distribution" \
+  "--set $variability/coefficient of variation = 0\.3: is a key of .distribution. = .*" \
+  "$variability/coefficient of variation=0.3"
+edited case.prm '/set symmetry/d'
+refuse "a pile in a whole cylinder" '--set Specimen/shape = cylinder: .*half cylinder.*' \
+  pile case.prm --output out --set "Specimen/shape=cylinder"
+refuse_set "a pile's rock under pressure" "${place}Specimen/packing = confined: .*use .unjammed." \
+  "Specimen/packing=confined"
+
+## one bond
+cp "$root/apps/cases/bond_fig5a.prm" bond.prm
+path='bond\.prm:[0-9]+: Loading/path = .*'
+corner() { printf '%s\n' "$@" >bond_fig5a.csv; }
+head='u_n [m],u_s [m],theta [rad]'
+refuse "path that is not there" "$path: .*bond_fig5a\.csv: cannot be read\. .*" bond bond.prm --output out
+corner 'u_n [mm],u_s [m],theta [rad]' 0.1,0,0
+refuse "path in another unit" "$path: .*no column 'u_n \[m\]'; there are 'u_n \[mm\]', .*" bond bond.prm --output out
+corner 'u_n [m],theta [rad]' 1e-4,0
+refuse "path without a column" "$path: .*no column 'u_s \[m\]'; .*" bond bond.prm --output out
+corner "$head"
+refuse "path without a corner" "$path: .*holds no record below its headings\." bond bond.prm --output out
+corner "$head" 0,0,0
+refuse "path that does not move" "$path: .*the only corner is the start itself.*" bond bond.prm --output out
+corner "$head" 1e-4,0,0 2e-4,nan,0
+refuse "path with nan" "$path: .*:3: every motion must be a finite number" bond bond.prm --output out
+corner "$head" 1e-4,0,0 2e-4,,0
+refuse "path with an empty value" "$path: .*:3: every motion must be a finite number" bond bond.prm --output out
+corner "$head" 1e-4,0
+refuse "path with a short line" "$path: .*:2: 2 values under 3 headings\." bond bond.prm --output out
+corner "$head" 1e-4,0,0 -20e-3,0,0
+refuse "path through the spheres" "$path: .*:3: u_n = -0\.02 m makes the spheres overlap .*at least -0\.01775 m" bond bond.prm --output out
+corner "$head" 1e-4,4,0
+refuse "path in metres by mistake" "$path: .*:2: a displacement exceeds 1000 radii: .*" bond bond.prm --output out --set "Spheres/radius=1 mm"
+cp "$root/apps/cases/bond_fig5a.csv" .
+refuse "zero stiffness ratio" '--set Bond/stiffness ratio = 0: must satisfy .*> 0.*' \
+  bond bond.prm --output out --set "Bond/stiffness ratio=0"
+refuse "no steps" '--set Loading/steps per leg = 0: must satisfy .*' bond bond.prm --output out \
+  --set "Loading/steps per leg=0"
+refuse "a key of another law" 'bond\.prm:[0-9]+: Bond/compressive strength = 10 MPa: is a key of `bond law` = damage; .*' \
+  bond bond.prm --output out --set "Bond/bond law=parallel"
+refuse "a key of another mode" '--set Loading/rotation = 1 rad: is a key of `mode` = .*; here it is path\. .*' \
+  bond bond.prm --output out --set "Loading/rotation=1 rad"
+refuse "unknown loading" '--set Loading/mode = tensoin: must be one of .*Did you mean "tension"\?' \
+  bond bond.prm --output out --set "Loading/mode=tensoin"
+
+## the bench
+refuse "unknown workload" 'mergel bench: --workload = "W3": must be W1, W2 or all.*' bench --workload W3
+refuse "too few particles" 'mergel bench: --particles = 10: must lie in 200 to 2e7.*' bench --particles 10
+refuse "no steps to time" 'mergel bench: --steps.*must be at least one block of at least one step.*' bench --steps -3
+refuse "yielding without bonds" 'mergel bench: --yielding: only W1 has bonds\. Add --workload W1.*' bench --yielding 0.1
+
+echo "bad input: $((n_checks - n_failed)) of $n_checks refused as they should be"
+[ "$n_failed" -eq 0 ]

@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# mergel-view of element tests: which pictures it makes of which runs, that options change them as
+# they say, and what it refuses before it makes any.
+#
+# usage: tests/program/view_element.sh MERGEL_VIEW
+set -euo pipefail
+view=$(readlink -f "$1")
+if [ -z "${DISPLAY:-}" ]; then
+  command -v xvfb-run >/dev/null || { echo "SKIPPED: neither a display nor xvfb-run"; exit 77; }
+  # without -noreset the server starts anew after each program, and may refuse the next
+  exec xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" "$0" "$view"
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+fail() { echo "FAILED: $*"; exit 1; }
+# FOLDER Q: 40 records of two legs, isotropic then with q up to Q times p
+history() {
+  mkdir -p "$1"
+  awk -v Q="$2" 'BEGIN {
+    OFS = ","
+    print "time [s],leg [-],axial strain [-],volumetric strain [-],axial strain of the leg [-],volumetric strain of the leg [-],p [Pa],q [Pa],void ratio [-]"
+    for (k = 0; k < 40; ++k) {
+      second = k >= 20; a = 1e-3 * k; v = 2e-3 * k
+      if (second) { l = 1 - (1 - a) / (1 - 0.02); w = 1 - (1 - v) / (1 - 0.04) } else { l = a; w = v }
+      p = 1e5 * (k + 1)
+      print 1e-5 * k, 1 + second, a, v, l, w, p, (second ? Q * p * (k - 20) / 20 : 0), 0.9 - 4e-3 * k
+    }
+  }' >"$1/history.csv"
+}
+# FOLDER: of a pile
+pile() {
+  mkdir -p "$1"
+  printf 'time [s],depth/D_p [-],q_c [Pa],bonds broken [-]\n0,0,0,0\n1e-3,1,2e6,30\n' >"$1/history.csv"
+}
+history iso 0.005
+history sheared 1.2
+pile pile
+printf '# critical states\np [MPa],q [kPa]\n1,1200\n3,3500\n' >points.csv
+
+# PICTURE ARGUMENTS...: that one picture and no other
+makes() {
+  local picture=$1
+  shift
+  rm -rf out
+  "$view" --size 800x600 --output out "$@" >log 2>&1 || fail "$*: $(cat log)"
+  [ "$(ls out)" = "$picture" ] || fail "$*: wanted $picture, made $(ls out)"
+  [ "$(head -c 8 "out/$picture" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$*: no PNG"
+}
+# as makes, and the picture differs from the one before
+differs() {
+  cp "out/$1" before.png
+  makes "$@"
+  ! cmp -s before.png "out/$1" || fail "$*: the picture is the same"
+}
+makes isotropic.png iso
+makes element.png sheared
+makes element.png iso sheared # one that is sheared calls for q
+makes element.png sheared
+differs element.png sheared --leg 2
+differs element.png sheared --leg 2 --points points.csv
+makes isotropic.png sheared --leg 1-1 # the leg before the shearing alone
+makes curve.png sheared --curve "axial strain:q/p"
+differs curve.png sheared --curve "axial strain:q/p [%]"
+differs curve.png sheared --curve "log p [kPa]:void ratio" --curve "time:leg"
+makes curve.png pile pile --label a --label b --curve "depth/D_p:q_c"
+history one 1; for k in 2 3 4 5 6 7 8; do cp -r one run$k; done
+makes element.png one run{2,3,4,5,6,7,8}
+
+# WHAT ARGUMENTS...: refused in one line, exit code 1, no picture
+refused() {
+  local what=$1 code=0
+  shift
+  rm -rf out
+  "$view" --output out "$@" >log 2>&1 || code=$?
+  [ $code -eq 1 ] && [ "$(wc -l <log)" -eq 1 ] && grep -q -- "$what" log && [ ! -e out ] ||
+    fail "wanted \"$what\", exit 1: $code $(cat log)"
+}
+refused 'sheared holds an element run and pile a pile run' sheared pile
+refused '--leg 3-1: must be the number' sheared --leg 3-1
+refused 'no record of leg 3; the last is 2' sheared --leg 3
+refused '--leg 1: is for element runs' pile --leg 1
+refused '--frame 0: is for' sheared --frame 0
+refused '--label: given 1 times for 2' sheared iso --label a
+refused "no column 'Q'" sheared --curve "p:Q"
+refused 'wrong dimension' sheared --curve "p [mm]:q"
+refused 'with a colon between' sheared --curve "p"
+refused 'are the axes of no panel' sheared --curve "p:void ratio" --points points.csv
+refused 'are the axes of no panel' iso --points points.csv
+refused '--points points.csv: is for element runs' pile --points points.csv
+refused 'cannot be read' sheared --points nowhere.csv
+printf '1,2\n3,4\n' >bare.csv
+refused 'with their names above' sheared --points bare.csv
+
+echo "view_element: all holds"

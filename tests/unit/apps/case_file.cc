@@ -1,0 +1,146 @@
+/// Declaring keys: which may be left out, which exist only with another.
+#include "tests/support/small_case.h"
+
+#include <cmath>
+#include <stdexcept>
+
+using namespace mergel;
+using namespace mergel::apps;
+using namespace mergel::apps::test;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+TEST_CASE("A wrong declaration is the program's fault", "[unit][apps]")
+{
+  CaseFile file;
+  double x = -1.0;
+  int n = 3;
+  std::string name = "none";
+  CHECK_THROWS_AS(file.number("x", x, any, ""), std::logic_error); // no section open
+  const auto section = file.section("A");
+  CHECK_THROWS_AS(file.section("B"), std::logic_error); // A is open
+  CHECK_THROWS_AS(file.number("x", x, positive, ""), std::logic_error);
+  CHECK_THROWS_AS(file.quantity("x", x, "metre per", any, ""), std::logic_error);
+  CHECK_THROWS_AS(file.integer("n", n, between(0, 2), ""), std::logic_error);
+  CHECK_THROWS_AS(file.choice("name", name, {"a", "b"}, ""), std::logic_error);
+  file.number("y", x, any, "");
+  CHECK_THROWS_AS(file.number("y", x, any, ""), std::logic_error); // twice
+}
+
+TEST_CASE("Keys of any kind may be required", "[unit][apps]")
+{
+  const WorkingFolder folder;
+  write("a.prm", "subsection A\nend\n");
+  const auto message = [](auto&& declare) -> std::string {
+    CaseFile file;
+    {
+      const auto section = file.section("A");
+      declare(file);
+    }
+    try {
+      file.read("a.prm");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  int n = 0;
+  std::string text;
+  fs::path path;
+  const std::string start = "a.prm:1: A/k: must be given, it has no default. "
+                            "Write \"set k = ...\", ";
+  CHECK(message([&](CaseFile& f) { f.integer("k", n, any, "", Default::none); }) ==
+        start + "a whole number.");
+  CHECK(message([&](CaseFile& f) {
+          f.choice("k", text, {"a", "b"}, "", Default::none);
+        }) == start + "one of a | b.");
+  CHECK(message([&](CaseFile& f) { f.text("k", text, "", Default::none); }) ==
+        start + "a text.");
+  CHECK(message([&](CaseFile& f) { f.path("k", path, "", Default::none); }) ==
+        start + "the name of a file.");
+}
+
+namespace {
+
+/// Two laws: each with a key of its own, and one name in both.
+struct Laws {
+  std::string law = "soft";
+  double strength_soft = 1.0, strength_hard = std::numeric_limits<double>::quiet_NaN();
+  double rate = 2.0;
+
+  void declare(CaseFile& file)
+  {
+    const auto section = file.section("Bond");
+    file.choice("law", law, std::vector<std::string>{"soft", "hard"}, "Which law.");
+    {
+      const auto only = file.only_if("law", {"soft"});
+      file.quantity("strength", strength_soft, "Pa", positive, "Of the soft law.");
+      file.number("rate", rate, positive, "Of softening.");
+    }
+    const auto only = file.only_if("law", {"hard"});
+    file.quantity("strength", strength_hard, "Pa", positive, "Of the hard law.");
+  }
+
+  void read(const std::string& text, const std::vector<std::string>& set = {})
+  {
+    WorkingFolder folder;
+    write("case.prm", text);
+    CaseFile file;
+    declare(file);
+    file.read("case.prm", set);
+    file.write_resolved("resolved.prm");
+    resolved = content("resolved.prm");
+    CaseFile again;
+    Laws other;
+    other.declare(again);
+    again.read("resolved.prm"); // what is written is read back
+  }
+  std::string resolved;
+};
+
+} // namespace
+
+TEST_CASE("keys under a condition exist only where it holds", "[unit][apps]")
+{
+  Laws soft;
+  soft.read("subsection Bond\n set strength = 3 Pa\nend\n");
+  CHECK(soft.strength_soft == 3.0);
+  CHECK(std::isnan(soft.strength_hard));
+  CHECK_THAT(soft.resolved, Contains("set rate"));
+
+  Laws hard;
+  hard.read("subsection Bond\n set law = hard\n set strength = 3 Pa\nend\n");
+  CHECK(hard.strength_hard == 3.0);
+  CHECK(hard.strength_soft == 1.0);
+  CHECK_THAT(hard.resolved, !Contains("set rate"));
+
+  CHECK_THROWS_WITH(Laws().read("subsection Bond\n set law = hard\n set strength = 3 Pa\n"
+                                " set rate = 1\nend\n"),
+                    "case.prm:4: Bond/rate = 1: is a key of `law` = soft; here it is hard. "
+                    "Leave the key out, or change `law`.");
+  CHECK_THROWS_WITH(Laws().read("subsection Bond\n set law = hard\nend\n"),
+                    Contains("Bond/strength: must be given"));
+  CHECK_THROWS_WITH(Laws().read("", {"Bond/law=hard", "Bond/strength=1 Pa", "Bond/rate=1"}),
+                    Contains("--set Bond/rate = 1: is a key of `law` = soft"));
+
+  CaseFile file;
+  Laws laws;
+  laws.declare(file);
+  std::ostringstream help;
+  file.help(help);
+  CHECK_THAT(help.str(), Contains("Where law = hard: Of the hard law."));
+}
+
+TEST_CASE("two keys of one name need conditions that exclude each other", "[unit][apps]")
+{
+  CaseFile file;
+  std::string law = "soft";
+  double x = 1.0;
+  const auto section = file.section("Bond");
+  file.choice("law", law, std::vector<std::string>{"soft", "hard"}, "Which law.");
+  CHECK_THROWS_AS(file.only_if("flaw", {"soft"}), std::logic_error);
+  const auto only = file.only_if("law", {"soft"});
+  file.number("x", x, positive, "One.");
+  CHECK_THROWS_AS(file.number("x", x, positive, "Two."), std::logic_error);
+  CHECK_THROWS_AS(file.only_if("law", {"hard"}), std::logic_error);
+}

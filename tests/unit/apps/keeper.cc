@@ -1,0 +1,263 @@
+#include "apps/run/checkpoint_scheduler.h"
+
+#include "apps/case/case_file.h"
+#include "dem/assembly/step.h"
+#include "dem/error.h"
+#include "dem/io/history.h"
+#include "tests/support/temporary_folder.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <new>
+#include <sstream>
+
+using namespace mergel;
+using namespace mergel::apps;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The steps at which a keeper of this cadence writes, of the first `n`.
+std::vector<std::uint64_t> steps_written(Keeper& keeper, const fs::path& folder,
+                                         std::uint64_t n)
+{
+  std::vector<std::uint64_t> steps;
+  for (std::uint64_t step = 1; step <= n; ++step) {
+    keeper.after_step(dem::Domain(), {step, 1e-6, "driving"}, [](dem::State& state) {
+      state.add<double>("x", {1.0, 2.0});
+    });
+    if (fs::exists(folder / dem::checkpoint_name(step))) steps.push_back(step);
+  }
+  return steps;
+}
+
+std::string content(const fs::path& file)
+{
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+} // namespace
+
+TEST_CASE("A cadence is a time, a number of steps or never", "[unit][apps]")
+{
+  CHECK(to_cadence("10 min").seconds == 600.0);
+  CHECK(to_cadence("10 min").steps == 0);
+  CHECK(to_cadence("5000 steps").steps == 5000);
+  CHECK(std::isinf(to_cadence("5000 steps").seconds));
+  CHECK(std::isinf(to_cadence("never").seconds));
+  CHECK(to_cadence("never").steps == 0);
+  for (const char* wrong : {"", "10", "10 mm", "0 s", "-1 min", "0 steps", "2.5 steps",
+                            "-3 steps", "steps", "always"})
+    CHECK_THROWS_AS(to_cadence(wrong), InputError);
+}
+
+TEST_CASE("A walltime is read as a cluster writes it", "[unit][apps]")
+{
+  CHECK(to_walltime("4h") == 14400.0);
+  CHECK(to_walltime("30 min") == 1800.0);
+  CHECK(to_walltime("4:00:00") == 14400.0);
+  CHECK(to_walltime("90:30") == 5430.0);
+  CHECK(to_walltime("1-00:00:00") == 86400.0);
+  CHECK(to_walltime("2-03:04:05") == 183845.0);
+  CHECK(to_walltime("0-12:30") == 45000.0);
+  CHECK(to_walltime("7-12") == 648000.0);
+  CHECK(to_walltime("1e-3 h") == Approx(3.6)); // no day
+  for (const char* wrong :
+       {"", "4", "4 mm", "0 s", "1:2:3:4", "4:", ":4", "a:b", "0:00", "1-", "-1", "-1 h",
+        "1-2-3", "1-2:3:4:5", "4:1-2", "0-00:00:00", "1-a", "99999999999-00"})
+    CHECK_THROWS_AS(to_walltime(wrong), InputError);
+}
+
+TEST_CASE("Checkpoints come at their steps, on SIGUSR1 at the next look, and two are kept",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  Keeper by_steps({.folder = folder.path,
+                   .job = "pile",
+                   .case_text = "",
+                   .every = to_cadence("7 steps")});
+  CHECK(steps_written(by_steps, folder.path, 30) ==
+        std::vector<std::uint64_t>{7, 14, 21, 28});
+  CHECK(dem::checkpoints_in(folder.path).size() == 2);
+  CHECK_THAT(by_steps.remedy(),
+             Contains("last good checkpoint is " + folder.path.string()));
+
+  fs::remove_all(folder.path);
+  fs::create_directories(folder.path);
+  Keeper on_signal({.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
+  CHECK(steps_written(on_signal, folder.path, 30).empty());
+  std::raise(SIGUSR1);
+  CHECK(steps_written(on_signal, folder.path, 30) == std::vector<std::uint64_t>{10});
+}
+
+TEST_CASE("SIGTERM and the end of the walltime stop a run behind a checkpoint",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  Keeper keeper({.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
+  std::raise(SIGTERM);
+  CHECK_THROWS_WITH(steps_written(keeper, folder.path, 30),
+                    Contains("stopped by SIGTERM at step 10") &&
+                        Contains("checkpoint_000000000010.h5") &&
+                        Contains("mergel pile --restart " + folder.path.string()));
+  CHECK(dem::read_checkpoint(folder.path / dem::checkpoint_name(10)).label.step == 10);
+
+  Keeper late(
+      {.folder = folder.path, .job = "pile", .case_text = "", .every = {}, .end = 0.0});
+  CHECK_THROWS_WITH(steps_written(late, folder.path, 30),
+                    Contains("stopped before the end of --walltime at step 10"));
+}
+
+TEST_CASE(
+    "The first checkpoint before the end of the walltime gets the time of a slow disk",
+    "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  Keeper keeper({.folder = folder.path,
+                 .job = "pile",
+                 .case_text = "",
+                 .every = {},
+                 .end = dem::wall_clock() + 12.0});
+  const auto put_80_MB = [](dem::State& state) {
+    state.add("x", std::vector<double>(10'000'000, 1.0));
+  };
+  // 4 s at 20 MB/s, twice, and the margin of 2 s leave 2 s: no cause to stop yet.
+  keeper.after_step(dem::Domain(), {10, 1e-6, "driving"}, put_80_MB);
+  CHECK(keeper.n_written() == 0);
+  Keeper late({.folder = folder.path,
+               .job = "pile",
+               .case_text = "",
+               .every = {},
+               .end = dem::wall_clock() + 9.0});
+  CHECK_THROWS_WITH(late.after_step(dem::Domain(), {10, 1e-6, "driving"}, put_80_MB),
+                    Contains("stopped before the end of --walltime at step 10"));
+}
+
+TEST_CASE("A failure of a library or of memory names the last good checkpoint",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  const Keeper keeper({.folder = folder.path,
+                       .job = "pile",
+                       .case_text = "",
+                       .every = {},
+                       .restarted_from = "earlier.h5"});
+  const auto rethrown = [&](const auto& error) {
+    try {
+      throw error;
+    } catch (...) {
+      keeper.rethrow_with_remedy();
+    }
+  };
+  CHECK_THROWS_WITH(rethrown(std::bad_alloc()),
+                    Contains("out of memory") && Contains("checkpoint is earlier.h5"));
+  CHECK_THROWS_WITH(rethrown(NumericalError("a NaN")),
+                    Contains("a NaN; the last good checkpoint is earlier.h5"));
+  CHECK_THROWS_WITH(rethrown(Unstable("too far")),
+                    Contains("too far; the last checkpoint is earlier.h5") &&
+                        Contains("--set \"Motion/time step safety=...\""));
+  CHECK_THROWS_AS(rethrown(InputError("bad")), InputError);
+  CHECK_THROWS_AS(rethrown(std::out_of_range("at 7")), std::out_of_range);
+}
+
+TEST_CASE("What was found until a run went unstable is left, and its loss hides no failure",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  const Keeper keeper({.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
+  const auto fail = [&](const auto& error, const auto& leave_figures) {
+    try {
+      throw error;
+    } catch (...) {
+      keeper.rethrow_with_remedy(leave_figures);
+    }
+  };
+  std::string left;
+  const auto leave = [&](const std::string& failure) { left = failure; };
+  CHECK_THROWS_AS(fail(NumericalError("a NaN"), leave), NumericalError);
+  CHECK(left.empty()); // other ranks know nothing of it
+  CHECK_THROWS_AS(fail(Unstable("too far"), leave), Remedied);
+  CHECK(left == "too far");
+  CHECK_THROWS_WITH(fail(Unstable("too far"),
+                         [](const std::string&) { throw CollectiveFailure("disk full"); }),
+                    StartsWith("too far; there is no checkpoint yet") &&
+                        Contains("disk full"));
+}
+
+TEST_CASE("A checkpoint that cannot be written names the last good one", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  Keeper keeper({.folder = folder.path / "gone",
+                 .job = "pile",
+                 .case_text = "",
+                 .every = to_cadence("5 steps"),
+                 .restarted_from = "earlier.h5"});
+  CHECK_THROWS_WITH(
+      steps_written(keeper, folder.path, 5),
+      Contains("checkpoint_000000000005.h5: cannot be written: No such file") &&
+          Contains("the last good checkpoint is earlier.h5"));
+}
+
+TEST_CASE("A history goes on where its mark is, and nowhere else", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "history.csv";
+  const std::vector<std::string> columns{"a [m]", "b [s]"};
+  dem::HistoryMark mark;
+  {
+    dem::History history(file, columns);
+    history.add({1.0, 2.0});
+    mark = history.mark();
+    history.add({3.0, 4.0});
+  }
+  const std::string whole = content(file);
+  std::ofstream(file, std::ios::app) << "5,";
+  {
+    dem::History history(file, columns, file, mark);
+    CHECK(content(file) == "a [m],b [s]\n1,2\n");
+    history.add({3.0, 4.0});
+  }
+  CHECK(content(file) == whole);
+  std::ofstream(file) << "a [m],b [s]\n1,3\n";
+  CHECK_THROWS_WITH(dem::check_history(file, mark), Contains("does not begin as it did"));
+  fs::remove(file);
+  CHECK_THROWS_WITH(dem::check_history(file, mark), Contains("history.csv: is missing"));
+}
+
+TEST_CASE("The keys in which two resolved cases differ are found", "[unit][apps]")
+{
+  const auto read = [](const std::string& text, auto&& use) {
+    CaseFile file;
+    double length = 1e-3;
+    std::string name = "x";
+    {
+      const auto section = file.section("A");
+      file.quantity("length", length, "m", positive, "A length.", "mm");
+      file.text("name", name, "A name.");
+    }
+    file.read_text(text, "case");
+    use(file);
+  };
+  std::string earlier;
+  read("", [&](CaseFile& file) { earlier = file.resolved_text(); });
+  read("subsection A\n set length = 1000 um\nend\n", [&](CaseFile& file) {
+    CHECK(file.changes_since(earlier).empty()); // the same bits
+  });
+  read("subsection A\n set length = 2 mm\n set name =\nend\n", [&](CaseFile& file) {
+    const auto changes = file.changes_since(earlier);
+    REQUIRE(changes.size() == 2);
+    CHECK(changes[0].key == "length");
+    CHECK(changes[0].was == "1 mm");
+    CHECK(changes[0].is == "2 mm");
+    CHECK(changes[1].was == "x");
+    CHECK(changes[1].is.empty());
+  });
+}

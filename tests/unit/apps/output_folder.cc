@@ -1,0 +1,336 @@
+#include "apps/run/output_folder.h"
+
+#include "apps/run/restart.h"
+#include "dem/error.h"
+#include "dem/io/atomic_file.h"
+#include "tests/support/temporary_folder.h"
+
+#include <catch2/catch.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+using namespace mergel;
+using namespace mergel::apps;
+using Catch::Matchers::Contains;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void touch(const fs::path& file)
+{
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << "x";
+}
+
+/// Everything below a folder, sorted.
+std::vector<std::string> tree(const fs::path& folder)
+{
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    names.push_back(entry.path().lexically_relative(folder).string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// What check() and commit() say; they must agree.
+std::string refusal(const fs::path& folder, Earlier earlier,
+                    const std::vector<fs::path>& inputs = {})
+{
+  const auto message = [](auto&& call) -> std::string {
+    try {
+      call();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  OutputFolder output(folder, earlier);
+  const std::string by_check = message([&] { output.check(inputs); });
+  if (by_check != "accepted") CHECK(message([&] { output.commit(inputs); }) == by_check);
+  return by_check;
+}
+
+const std::vector<std::string> own = {
+    ".history.partial.csv", "curve.png",     "damage.png",
+    "displacement.png",     "element.png",   "fields/bonds_0000.vtp",
+    "history.csv",          "isotropic.png", "load.png",
+    "particles.pvd",        "resolved.prm",  "sample.h5",
+    "summary.json"};
+
+} // namespace
+
+TEST_CASE("check() changes nothing and commit() makes the folder", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  OutputFolder output(folder.path / "results" / "pile", Earlier::keep);
+  output.check();
+  CHECK(tree(folder.path).empty());
+  output.commit();
+  CHECK(tree(folder.path) ==
+        std::vector<std::string>{"results", "results/pile", "results/pile/.mergel.lock"});
+  output.commit(); // an empty folder is as good as none
+  CHECK(output.path() == folder.path / "results" / "pile");
+}
+
+TEST_CASE("A folder of other files is taken as it is", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  touch(folder.path / "notes.txt");
+  touch(folder.path / "history.csv.bak");
+  touch(folder.path / "photo.png");
+  fs::create_directory(folder.path / "history.csv"); // a folder is none of mergel's files
+  const auto before = tree(folder.path);
+  for (const Earlier earlier : {Earlier::keep, Earlier::overwrite}) {
+    OutputFolder(folder.path, earlier).commit();
+    CHECK(tree(folder.path) == before);
+  }
+}
+
+TEST_CASE("Each file of an earlier run is recognised and kept", "[unit][apps]")
+{
+  for (const std::string& name : own) {
+    const TemporaryFolder folder;
+    touch(folder.path / name);
+    const auto before = tree(folder.path);
+    CHECK(refusal(folder.path, Earlier::keep) ==
+          "output folder " + folder.path.string() + ": holds an earlier run (" + name +
+              "). Choose another folder with --output, or replace that run with "
+              "--overwrite.");
+    CHECK(tree(folder.path) == before);
+  }
+}
+
+TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  const fs::path results = folder.path / "results";
+  const std::vector<std::string> others = {
+      "case.prm",           "damage.png.txt", "figure.png",
+      "partial.csv",        "pile.log",       "more/history.csv",
+      ".notes.partial.txt", "my_view.pvd",    "fields/notes.txt"};
+  for (const auto& names : {own, others})
+    for (const std::string& name : names) touch(results / name);
+  touch(folder.path / "precious" / "data");
+  fs::create_symlink(folder.path / "precious", results / "link");
+  const auto before = tree(folder.path);
+
+  OutputFolder output(results, Earlier::overwrite);
+  output.check();
+  CHECK(tree(folder.path) == before);
+
+  output.commit();
+  std::vector<std::string> expected = others;
+  expected.insert(expected.end(), {".mergel.lock", "fields", "link", "more"});
+  std::sort(expected.begin(), expected.end());
+  CHECK(tree(results) == expected);
+  CHECK(fs::exists(folder.path / "precious" / "data"));
+}
+
+TEST_CASE("--overwrite removes links, never what they point to", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  const fs::path results = folder.path / "results";
+  touch(folder.path / "precious" / "sample.h5");
+  fs::create_directory(results);
+  fs::create_symlink(folder.path / "precious", results / "fields");
+  fs::create_symlink(folder.path / "precious" / "sample.h5", results / "sample.h5");
+  OutputFolder(results, Earlier::overwrite).commit();
+  CHECK(tree(results).empty());
+  CHECK(fs::exists(folder.path / "precious" / "sample.h5"));
+}
+
+TEST_CASE("--overwrite does not remove what the run is to read", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  const fs::path sample = folder.path / "sample.h5",
+                 field = folder.path / "fields/pile_0003.vtp";
+  touch(sample);
+  touch(field);
+  touch(folder.path / "notes.txt");
+  const auto before = tree(folder.path);
+  for (const fs::path& input : {sample, field, folder.path / "." / "sample.h5"})
+    CHECK(refusal(folder.path, Earlier::overwrite, {input}) ==
+          "output folder " + folder.path.string() + ": --overwrite would remove " +
+              input.string() +
+              ", which this run reads. Choose another folder with --output.");
+  CHECK(tree(folder.path) == before);
+  CHECK(refusal(folder.path, Earlier::overwrite,
+                {"", folder.path / "notes.txt", folder.path / "missing.h5"}) == "accepted");
+}
+
+TEST_CASE("Something in the way of the folder is named", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "file";
+  touch(file);
+  for (const fs::path& wanted : {file, file / "results", file / "results" / "pile"})
+    CHECK(refusal(wanted, Earlier::overwrite) ==
+          "output folder " + wanted.string() + ": \"" + file.string() +
+              "\" is in its way and is no folder. Choose another folder with --output.");
+  fs::create_symlink(folder.path / "nowhere", folder.path / "dangling");
+  CHECK_THAT(refusal(folder.path / "dangling", Earlier::keep),
+             Contains("dangling\" is in its way and is no folder"));
+  CHECK(refusal("", Earlier::keep) == "output folder: no name is given. Use --output DIR.");
+}
+
+TEST_CASE("A folder that cannot be written is refused before it is used", "[unit][apps]")
+{
+  // a file system that takes no folders says so only when asked for one
+  CHECK_THROWS_WITH(OutputFolder("/proc/mergel", Earlier::keep).commit(),
+                    Contains("output folder /proc/mergel: cannot be"));
+  if (geteuid() == 0) return; // root may write everywhere
+  const TemporaryFolder folder;
+  fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
+  CHECK_THAT(refusal(folder.path / "results", Earlier::keep),
+             Contains("cannot be written: Permission denied"));
+}
+
+TEST_CASE("What a run wrote after its checkpoint is cut back, and nothing else",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  for (const char* file :
+       {"history.csv", "resolved.prm", "summary.json", "notes.txt", "damage.png",
+        "checkpoint_000000000100.h5", "checkpoint_000000000200.h5",
+        "checkpoint_000000000300.h5", ".checkpoint_000000000400.partial.h5",
+        "fields/particles_99999999999999999999999.vtp", "fields/particles_0000.vtp",
+        "fields/particles_0001.vtp", "fields/far_field_0001.vtu",
+        "fields/.bonds_0001.partial.vtp", "fields/mine.vtp"})
+    touch(folder.path / file);
+  OutputFolder out(folder.path, Earlier::go_on);
+  out.check();
+  out.commit();
+  CHECK(tree(folder.path).size() == 17); // with fields itself and the lock
+  const fs::path aside = folder.path / "checkpoint_000000000300.h5.aside";
+  CHECK(out.cut_back(1, 200) == std::vector<fs::path>{aside});
+  CHECK(tree(folder.path) ==
+        std::vector<std::string>{
+            ".mergel.lock", "checkpoint_000000000100.h5", "checkpoint_000000000200.h5",
+            "checkpoint_000000000300.h5.aside", "damage.png", "fields", "fields/mine.vtp",
+            "fields/particles_0000.vtp", "history.csv", "notes.txt", "resolved.prm"});
+}
+
+TEST_CASE("A checkpoint set aside leaves those set aside before as they are",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  const fs::path checkpoint = folder.path / "checkpoint_000000000300.h5";
+  const auto beside = [&](const char* ending) {
+    return fs::path(checkpoint.string() + ending);
+  };
+  const auto text_of = [](const fs::path& file) {
+    std::ifstream in(file);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  for (const char* ending : {".aside", ".aside-2", ".aside-3"}) {
+    std::ofstream(checkpoint) << "of " << ending;
+    OutputFolder out(folder.path, Earlier::go_on);
+    out.commit();
+    CHECK(out.cut_back(0, 200) == std::vector<fs::path>{beside(ending)});
+  }
+  for (const char* ending : {".aside", ".aside-2", ".aside-3"})
+    CHECK(text_of(beside(ending)) == std::string("of ") + ending);
+
+  // each of them is what an earlier run left
+  fs::remove(beside(".aside"));
+  touch(beside(".aside-two"));
+  CHECK_THAT(refusal(folder.path, Earlier::keep),
+             Contains("holds an earlier run (checkpoint_000000000300.h5.aside-2)"));
+  OutputFolder(folder.path, Earlier::overwrite).commit();
+  CHECK(tree(folder.path) ==
+        std::vector<std::string>{"checkpoint_000000000300.h5.aside-two"});
+
+  fs::rename(beside(".aside-two"), beside(".aside-2"));
+  JobOptions options;
+  options.output = options.restart = folder.path;
+  CHECK_THROWS_WITH(folder_to_begin_in(options).check(),
+                    Contains("holds a run with checkpoints"));
+}
+
+TEST_CASE("A run that came and went while this one was made ready is not begun again",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  touch(folder.path / "history.csv");
+  JobOptions options;
+  options.output = options.restart = folder.path;
+  OutputFolder output = folder_to_begin_in(options);
+  output.check();
+  touch(folder.path / "summary.json");
+  CHECK_THROWS_WITH(output.commit(), Contains("holds a finished run"));
+  CHECK(fs::exists(folder.path / "history.csv"));
+}
+
+TEST_CASE("A failed run without a checkpoint is not begun again over its results",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  touch(folder.path / "history.csv");
+  touch(folder.path / "failed.json");
+  JobOptions options;
+  options.output = options.restart = folder.path;
+  CHECK_THROWS_WITH(folder_to_begin_in(options).check(), Contains("holds a failed run"));
+  options.restart.clear();
+  options.overwrite = true;
+  folder_to_begin_in(options).commit();
+  CHECK(tree(folder.path).empty());
+}
+
+TEST_CASE("A folder that is held before it is looked at is this run's until the end",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  {
+    OutputFolder output(folder.path, Earlier::go_on);
+    output.hold(FolderLock(folder.path, 0.0));
+    CHECK_THROWS_AS(require_no_run(folder.path, 0.0), InputError);
+    CHECK_NOTHROW(output.check());
+    CHECK_NOTHROW(output.commit());
+    CHECK_THROWS_AS(FolderLock(folder.path, 0.0), InputError);
+  }
+  CHECK(tree(folder.path).empty());
+}
+
+TEST_CASE("The files of a results folder are told from a user's", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  for (const char* file : {"notes.txt", "data.csv", "fields/mine.vtp"})
+    touch(folder.path / file);
+  CHECK(own_files_in(folder.path).files.empty());
+  CHECK(own_files_in(folder.path).frames.empty());
+  for (const char* file : {".history.partial.csv", "checkpoint_000000000300.h5.aside-2",
+                           "fields/bonds_0000.vtp", "fields/.bonds_0001.partial.vtp"})
+    touch(folder.path / file);
+  const OwnFiles own = own_files_in(folder.path);
+  CHECK(own.files.size() == 2);
+  CHECK(own.aside ==
+        std::vector<fs::path>{folder.path / "checkpoint_000000000300.h5.aside-2"});
+  CHECK(own.frames == std::vector<fs::path>{folder.path / "fields/bonds_0000.vtp"});
+}
+
+TEST_CASE("A folder where a run is writing is refused to another until it ends",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.path / ".mergel.lock") << "of a run that was killed";
+  {
+    OutputFolder output(folder.path, Earlier::go_on);
+    output.commit();
+    output.commit();
+    CHECK_THAT(FolderLock::holder(folder.path),
+               Contains("another run (process " + std::to_string(getpid())));
+    CHECK_THROWS_WITH(require_no_run(folder.path, 0.0),
+                      Contains("is writing there. Wait for it to end"));
+    CHECK_THROWS_AS(FolderLock(folder.path, 0.0), InputError);
+  }
+  CHECK(FolderLock::holder(folder.path).empty());
+  CHECK(tree(folder.path).empty());
+}

@@ -1,0 +1,95 @@
+#include "apps/pile/pile_case.h"
+#include "apps/coupled/coupled_system.h"
+
+#include <catch2/catch.hpp>
+
+using namespace mergel;
+using namespace mergel::apps;
+
+namespace {
+
+const std::filesystem::path cases =
+    std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() /
+    "apps/cases";
+
+PileCase read_case(const char* name, const std::vector<std::string>& set = {})
+{
+  CaseFile file;
+  PileCase c;
+  declare(file, c);
+  file.read(cases / name, set);
+  complete(file, c);
+  return c;
+}
+
+std::string refusal(const std::vector<std::string>& set)
+{
+  try {
+    read_case("pile_small.prm", set);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("both shipped cases hold the paper's rock, Table 1", "[unit][apps]")
+{
+  for (const char* name : {"pile_small.prm", "pile_paper.prm"}) {
+    const PileCase c = read_case(name);
+    const auto& b = std::get<dem::DamageBond>(c.rock.material.bond);
+    const double d00 = 0.066e-3;
+    CHECK(b.E == 22.5e9);
+    CHECK(b.kappa == 2.4);
+    CHECK(b.sigma_t == 36e6);
+    CHECK(b.sigma_c == 198e6);
+    CHECK(b.C == 40.5e6);
+    CHECK(b.u_c == Approx(0.061 * d00).epsilon(1e-12));
+    CHECK(b.theta_c == 0.04);
+    CHECK(b.flow == dem::BendingFlow::published);
+    CHECK(c.rock.material.contact.g_a == Approx(0.15 * d00).epsilon(1e-12));
+    CHECK(c.rock.specimen.g_b == Approx(0.4 * d00).epsilon(1e-12));
+    CHECK(c.rock.material.contact.E == 0.63e9);
+    CHECK(c.rock.material.contact.mu == 0.3);
+  }
+}
+
+TEST_CASE("pile_paper is Table 4: sizes, 9 grains per diameter, 10,000 cells",
+          "[unit][apps]")
+{
+  PileCase c = read_case("pile_paper.prm");
+  CHECK(c.rock.far_field.chamber_diameter == 50e-3);
+  CHECK(c.rock.far_field.chamber_height == 100e-3);
+  CHECK(c.rock.diameter == 20e-3);
+  CHECK(c.rock.height == 40e-3);
+  CHECK(c.diameter == 1.4e-3);
+  CHECK(c.final_depth == 6.0 * c.diameter);
+  CHECK(c.velocity == 1.35);
+  // D_p/d50 = 9 where the pile goes: the mean diameter in number is 0.0999 mm at S = 1.
+  const double d50 = c.rock.specimen.sizes.diameter(0.5);
+  CHECK(c.diameter / (c.rock.specimen.scale.at(0.0) * d50) == Approx(9.0).epsilon(0.05));
+  // The number of grains follows from volume, porosity and S(r): 195,000 in the paper.
+  double n = 0.0;
+  const double dr = 1e-6;
+  for (double r = 0.5 * dr; r < 0.5 * c.rock.diameter; r += dr)
+    n += dem::pi * r * dr * c.rock.height / std::pow(c.rock.specimen.scale.at(r), 3);
+  const double v_1 = dem::pi / 6.0 * std::pow(0.1035e-3, 3);
+  CHECK(n * (1.0 - 0.52) / v_1 == Approx(195e3).epsilon(0.03));
+}
+
+TEST_CASE("keys that contradict each other name themselves and a remedy", "[unit][apps]")
+{
+  CHECK(refusal({"Pile/diameter=20 mm"}) ==
+        "--set Pile/diameter = 20 mm: the pile is wider than the DEM region: must be below "
+        "`Specimen/diameter`, 10 mm; crushing reaches some two diameters from the axis");
+  CHECK(refusal({"Specimen/diameter=30 mm"})
+            .find("--set Specimen/diameter = 30 mm: the DEM region does not fit the far "
+                  "field") == 0);
+  CHECK(
+      refusal({"Pile/final depth=11 mm"}).find("--set Pile/final depth = 11 mm: the tip") ==
+      0);
+  CHECK(refusal({"Specimen/porosity=0.2"})
+            .find("--set Specimen/porosity = 0.2: must be at least 0.479") == 0);
+  CHECK(refusal({"Specimen/largest diameter=0.01 mm"}) != "");
+}

@@ -1,0 +1,105 @@
+#include "tests/support/dem_scene.h"
+
+#include "dem/pairs/neighbours.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace mergel::dem;
+using namespace mergel::dem::test;
+
+namespace {
+
+/// n spheres, diameters over a decade and as many small as large by volume, in a box of
+/// edges `size`.
+Particles cloud(int n, const Vec3& size, std::uint64_t seed)
+{
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  Particles p;
+  for (int k = 0; k < n; ++k) {
+    const Vec3 x = 0.5 * (random_vector(random) + Vec3::Ones()).cwiseProduct(size);
+    Body b = sphere(x, 0.005 * std::pow(10.0, u(random)));
+    b.S = 1.0 + u(random);
+    p.add(b);
+  }
+  return p;
+}
+
+/// All pairs, all images within n_images cells.
+std::vector<Pair> by_force(const Particles& p, const PeriodicCell& cell, double range,
+                           int n_images)
+{
+  const auto images = [&](int a) { return cell.size[a] > 0.0 ? n_images : 0; };
+  std::vector<Pair> found;
+  for (Index i = 0; i < p.size(); ++i)
+    for (Index j = i + 1; j < p.size(); ++j)
+      for (int a = -images(0); a <= images(0); ++a)
+        for (int b = -images(1); b <= images(1); ++b)
+          for (int c = -images(2); c <= images(2); ++c) {
+            const Shift s{static_cast<std::int16_t>(a), static_cast<std::int16_t>(b),
+                          static_cast<std::int16_t>(c)};
+            const Body &bi = p.body[i], &bj = p.body[j];
+            const double gap = (bj.x + cell.offset(s) - bi.x).norm() - bi.R - bj.R;
+            if (gap < range * 0.5 * (bi.S + bj.S)) found.push_back({i, j, s});
+          }
+  return found; // ascending by construction
+}
+
+} // namespace
+
+TEST_CASE("The cell search finds the pairs of a search by force, ascending", "[unit][dem]")
+{
+  const Particles p = cloud(1200, {0.6, 0.5, 0.4}, 1);
+  for (const double range : {0.0, 0.002, 0.02}) {
+    const auto found = find_pairs(p, {}, range);
+    CHECK(found == by_force(p, {}, range, 0));
+    CHECK(std::is_sorted(found.begin(), found.end()));
+    CHECK(found.size() > 200);
+  }
+}
+
+TEST_CASE("The search meets images across the boundaries that are periodic", "[unit][dem]")
+{
+  const auto size =
+      GENERATE(Vec3(0.41, 0.41, 0.41), Vec3(0.45, 0.0, 0.0), Vec3(0.0, 0.42, 0.6));
+  const PeriodicCell cell{size};
+  const Particles p = cloud(500, {0.41, 0.42, 0.43}, 2);
+  const auto found = find_pairs(p, cell, 0.003);
+  CHECK(found == by_force(p, cell, 0.003, 1));
+  CHECK(std::any_of(found.begin(), found.end(),
+                    [](const Pair& q) { return q.shift != Shift{}; }));
+}
+
+TEST_CASE("Positions many cells away give the shifts of their own cells", "[unit][dem]")
+{
+  const PeriodicCell cell{{0.5, 0.5, 0.5}};
+  Particles p = cloud(300, cell.size, 3);
+  const auto home = find_pairs(p, cell, 0.003);
+  std::mt19937_64 random(4);
+  std::vector<Shift> moved(p.size());
+  for (Index i = 0; i < p.size(); ++i)
+    for (std::size_t a = 0; a < 3; ++a) {
+      moved[i][a] = static_cast<std::int16_t>(static_cast<int>(random() % 2001) - 1000);
+      p.body[i].x[static_cast<int>(a)] += 0.5 * moved[i][a];
+    }
+  const auto away = find_pairs(p, cell, 0.003);
+  REQUIRE(away.size() == home.size());
+  for (std::size_t k = 0; k < home.size(); ++k) {
+    REQUIRE((away[k].i == home[k].i && away[k].j == home[k].j));
+    for (std::size_t a = 0; a < 3; ++a) // x_j + offset(shift) is the same neighbour
+      REQUIRE(away[k].shift[a] ==
+              home[k].shift[a] + moved[home[k].i][a] - moved[home[k].j][a]);
+  }
+}
+
+TEST_CASE("A cell in which a particle could meet its own image is refused", "[unit][dem]")
+{
+  Particles p;
+  p.add(sphere({0, 0, 0}, 1.0));
+  CHECK_NOTHROW(find_pairs(p, {{4.0, 0.0, 0.0}}, 0.0));
+  CHECK_THROWS_AS(find_pairs(p, {{3.99, 0.0, 0.0}}, 0.0), mergel::InputError);
+  CHECK_THROWS_AS(find_pairs(p, {{4.0, 0.0, 0.0}}, 0.1), mergel::InputError);
+  CHECK(find_pairs(Particles{}, {}, 1.0).empty());
+}

@@ -1,0 +1,124 @@
+#include "tests/support/dem_scene.h"
+
+#include "dem/walls/mirror.h"
+
+#include <catch2/catch.hpp>
+
+using namespace mergel::dem;
+using namespace mergel::dem::test;
+
+namespace {
+
+constexpr double R = 30e-3;
+
+struct Halved {
+  Particles p;
+  Mirror mirror;
+  PairMaterials material{bond_of_table_1(), no_contact()};
+  PairLosses losses;
+
+  Halved()
+  {
+    p.add(sphere({0.0, R, 0.0}, R)); // touches the plane and its image
+    bond_to_mirror(mirror, p, 1e-3);
+  }
+  void move(double u)
+  {
+    p.body[0].v.y() = u / 1e-4;
+    p.body[0].x.y() += u;
+    clear_loads(p);
+    add_mirror_forces(material, 1e-4, p, mirror, losses);
+  }
+};
+
+} // namespace
+
+TEST_CASE("A bond to the image pulls with twice the displacement", "[unit][dem]")
+{
+  Halved s;
+  CHECK(s.p.n_bonds[0] == 1);
+  s.move(1e-6);
+  const double k_n = 400e6 * (pi * 1e-4) / (2.0 * R); // R_b = 10 mm
+  CHECK(s.p.load[0].f.y() == Approx(-k_n * 2e-6).epsilon(1e-9));
+  CHECK(s.p.load[0].f.x() == 0.0);
+  CHECK(s.mirror.force.value().y() == Approx(s.p.load[0].f.y()).epsilon(1e-12));
+  // half of the pair's energy
+  CHECK(s.mirror.energy.value() == Approx(0.5 * 0.5 * k_n * 4e-12).epsilon(1e-9));
+}
+
+TEST_CASE("The half model sees the force, the loss and the breakage of the whole pair",
+          "[unit][dem]")
+{
+  Halved half;
+  Scene whole;
+  whole.p.add(sphere({0.0, R, 0.0}, R));
+  whole.p.add(sphere({0.0, -R, 0.0}, R));
+  whole.material = half.material;
+  whole.bond({{0, 1}});
+  const double dt = 1e-4;
+  for (int step = 0; step < 120; ++step) {
+    const double u = (step % 10 < 8 ? 1.0 : -0.5) * 4e-6; // pull with some unloading
+    half.move(u);
+    for (const Index i : {0u, 1u}) {
+      whole.p.body[i].v.y() = (i == 0 ? 1.0 : -1.0) * u / dt;
+      whole.p.body[i].x += dt * whole.p.body[i].v;
+    }
+    whole.forces(dt);
+    REQUIRE(half.p.load[0].f.y() == Approx(whole.p.load[0].f.y()).margin(1e-8));
+    REQUIRE(2.0 * half.mirror.energy.value() == Approx(whole.stored()).margin(1e-13));
+    REQUIRE(2.0 * half.losses.plastic.value() ==
+            Approx(whole.losses.plastic.value()).margin(1e-13));
+  }
+  CHECK(half.losses.plastic.value() > 1e-3);
+  CHECK(half.losses.broken == 1);
+  CHECK(whole.losses.broken == 1);
+  CHECK(half.p.n_bonds[0] == 0);
+  CHECK(half.losses.residue.value() * 2.0 ==
+        Approx(whole.losses.residue.value()).epsilon(1e-6));
+}
+
+TEST_CASE("A bonded particle at the cut spins along the plane's normal only", "[unit][dem]")
+{
+  Particles p;
+  Body b = sphere({0.0, R, 0.0}, R);
+  b.omega = {1.0, 2.0, 3.0};
+  p.add(b);
+  Mirror mirror;
+  bond_to_mirror(mirror, p, 1e-3);
+  CHECK(p.body[0].omega == Vec3(0.0, 2.0, 0.0));
+  p.load[0].t = {5.0, 6.0, 7.0};
+  hold_mirror_spin(mirror, p);
+  CHECK(p.load[0].t == Vec3(0.0, 6.0, 0.0));
+}
+
+TEST_CASE("An unbonded particle is pushed off the cut by its image and never pulled",
+          "[unit][dem]")
+{
+  Particles p;
+  p.add(sphere({0.0, R - 1e-4, 0.0}, R));
+  p.add(sphere({0.2, R + 1e-4, 0.0}, R));
+  Mirror mirror;
+  rebuild_mirror(mirror, p, 0.0, 1e-3);
+  REQUIRE(mirror.pairs.size() == 2);
+  PairLosses losses;
+  const LinearMaterial law = contact(63e6, 2.4, 0.4, 0.0);
+  add_mirror_forces({bond_of_table_1(), law}, 0.0, p, mirror, losses);
+  CHECK(p.load[0].f.y() == Approx(63e6 * pi * R * R / (2 * R) * 2e-4).epsilon(1e-9));
+  CHECK(p.load[1].f.norm() == 0.0);
+
+  p.body[0].x.y() = -1e-6;
+  CHECK_THROWS_AS(add_mirror_forces({bond_of_table_1(), law}, 0.0, p, mirror, losses),
+                  mergel::NumericalError);
+}
+
+TEST_CASE("A rebuild drops the distant and keeps the bonded pairs of the mirror",
+          "[unit][dem]")
+{
+  Halved s;
+  s.p.body[0].x.y() += 1.0;
+  s.p.add(sphere({0.0, R + 1.0, 0.0}, R));
+  rebuild_mirror(s.mirror, s.p, 0.0, 1e-3);
+  REQUIRE(s.mirror.pairs.size() == 1);
+  CHECK(s.mirror.pairs[0].particle == 0);
+  CHECK(s.mirror.pairs[0].bond.intact == 1.0);
+}

@@ -1,0 +1,192 @@
+#include "tests/support/dem_scene.h"
+
+#include "dem/pairs/neighbours.h"
+#include "dem/specimen/bonding.h"
+#include "dem/specimen/porosity.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace mergel::dem;
+using namespace mergel::dem::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr double d00 = 0.066e-3; // [m]
+
+/// A small half cylinder of the paper's grading, graded in S.
+SpecimenSpec small_specimen()
+{
+  SpecimenSpec s;
+  s.region = HalfCylinder{1.6e-3, 2.0e-3, 16};
+  s.scale = {1.5, 2.0, 0.4e-3, 1.2e-3};
+  s.sizes = Grading(UniformSizes{d00, 0.1337e-3});
+  s.rho = 2556.0;
+  s.porosity = 0.52;
+  s.contact.g_a = 0.15 * d00;
+  s.g_b = 0.4 * d00;
+  s.coordination = 5.8;
+  return s;
+}
+
+const Packing& packed()
+{
+  static const Packing packing = pack(small_specimen(), [](double) {});
+  return packing;
+}
+
+} // namespace
+
+TEST_CASE("A packing has its porosity, its ids in order and no overlap", "[unit][dem]")
+{
+  const SpecimenSpec s = small_specimen();
+  const Packing& packing = packed();
+  const Particles& p = packing.particles;
+  CAPTURE(p.size(), packing.porosity, packing.whole_porosity, packing.overlap);
+  CHECK(p.size() > 1000);
+  CHECK(packing.porosity ==
+        Approx(0.52).margin(0.01)); // the last sweeps may shift what 0.004 judged
+  CHECK(core_porosity(s.region, p) == packing.porosity);
+  CHECK(packing.whole_porosity > packing.porosity); // the walls leave voids
+
+  bool in_order = true, in_size = true, inside = true;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Body& b = p.body[i];
+    in_order = in_order && p.id[i] == i;
+    in_size = in_size && 2.0 * b.R >= b.S * s.sizes.smallest() &&
+              2.0 * b.R <= b.S * s.sizes.largest() && b.S >= 1.5 && b.S <= 2.0 &&
+              b.m == sphere_mass(b.R, s.rho);
+    inside = inside && depth(s.region, b.x) > 0.9 * b.R;
+  }
+  CHECK(in_order);
+  CHECK(in_size);
+  CHECK(inside);
+
+  // No far-field shell is closed by more than the overlap it reports, and the spheres are
+  // apart.
+  double worst = 0.0;
+  for (const Pair& q : find_pairs(p, {}, s.contact.g_a)) {
+    const Body &i = p.body[q.i], &j = p.body[q.j];
+    const double reach = i.R + j.R + s.contact.g_a * 0.5 * (i.S + j.S);
+    worst = std::max(worst, (reach - (j.x - i.x).norm()) / reach);
+  }
+  CHECK(worst <=
+        packing.overlap * 1.5 + 1e-12); // one more move follows the sweep that was judged
+  CHECK(packing.overlap < 2e-3);
+}
+
+TEST_CASE("Births per volume fall with the cube of the upscaling ratio", "[unit][dem]")
+{
+  const SpecimenSpec s = small_specimen();
+  double n_inner = 0.0, n_outer = 0.0;
+  for (const Body& b : packed().particles.body) {
+    n_inner += b.S == 1.5;
+    n_outer += b.S == 2.0;
+  }
+  // n S^3 is the same per volume; the prism's area beyond r_outer is its own less the half
+  // disc.
+  const double outer_area = volume(s.region) / 2.0e-3 - 0.5 * pi * 1.2e-3 * 1.2e-3;
+  const double inner_area = 0.5 * pi * 0.4e-3 * 0.4e-3;
+  const double expected = inner_area / outer_area * std::pow(2.0 / 1.5, 3);
+  // some 100 grains inside: a scatter of 10 %, two and a half of that
+  CHECK(n_inner / n_outer == Approx(expected).epsilon(0.25));
+}
+
+TEST_CASE("The same seed gives the same bits, another seed another packing", "[unit][dem]")
+{
+  SpecimenSpec s = small_specimen();
+  s.region = HalfCylinder{1.2e-3, 1.3e-3, 8};
+  const auto first = [&](std::uint64_t seed) {
+    s.seed = seed;
+    s.porosity = 0.6; // loose: few sweeps
+    return pack(s, [](double) {}).particles.body.front().x;
+  };
+  CHECK(first(4) == first(4));
+  CHECK(first(4) != first(5));
+}
+
+TEST_CASE("Bonds are the closest pairs, up to the coordination or the bond gap",
+          "[unit][dem]")
+{
+  SpecimenSpec s = small_specimen();
+  const Particles& p = packed().particles;
+  const auto gap_of = [&](const Pair& q) {
+    const Body &i = p.body[q.i], &j = p.body[q.j];
+    return ((j.x - i.x).norm() - i.R - j.R) / (0.5 * (i.S + j.S));
+  };
+  const Bonding bonding = choose_bonds(s, p, {});
+  const auto n = static_cast<double>(p.size());
+  CHECK(2.0 * static_cast<double>(bonding.pairs.size()) / n ==
+        Approx(5.8).margin(1.0 / n + 1e-12));
+  CHECK(std::is_sorted(bonding.pairs.begin(), bonding.pairs.end()));
+  CHECK(bonding.limit <= s.g_b);
+  double widest = 0.0;
+  for (const Pair& q : bonding.pairs) widest = std::max(widest, gap_of(q));
+  CHECK(widest == bonding.limit);
+  for (const Pair& q : find_pairs(p, {}, s.g_b))
+    if (!std::binary_search(bonding.pairs.begin(), bonding.pairs.end(), q))
+      REQUIRE(gap_of(q) >= bonding.limit);
+
+  s.coordination = 20.0; // more than the gap allows
+  const Bonding all = choose_bonds(s, p, {});
+  CHECK(all.pairs == find_pairs(p, {}, s.g_b));
+}
+
+TEST_CASE("A porosity out of reach is refused with the range that can be reached",
+          "[unit][dem]")
+{
+  SpecimenSpec s = small_specimen();
+  CHECK_NOTHROW(s.check());
+  CHECK(effective_solid_fraction(s) == Approx(0.626).margin(0.002)); // design, section 7
+
+  s.porosity = 0.2;
+  std::string text;
+  try {
+    s.check();
+  } catch (const mergel::InputError& error) {
+    text = error.what();
+  }
+  const std::string before = "must be at least ";
+  REQUIRE_THAT(text, Contains(before));
+  const double lowest = std::stod(text.substr(text.find(before) + before.size()));
+  s.porosity = lowest + 0.001;
+  CHECK_NOTHROW(s.check());
+  s.porosity = lowest - 0.001;
+  CHECK_THROWS_WITH(s.check(), Contains(" and below 1: "));
+
+  s.compaction = Compaction::confined;
+  s.pressure = 5e3;
+  s.contact = contact(0.63e9, 2.4, 0.3, 0.15 * d00);
+  // The shells fill 0.626 at 0.52: 1 - 0.48 * 0.52/0.626 = 0.60.
+  CHECK_THROWS_WITH(s.check(), Contains(" and at most some 0.60"));
+}
+
+TEST_CASE("A specimen that makes no sense is refused", "[unit][dem]")
+{
+  const auto refused = [](auto&& change) {
+    SpecimenSpec s = small_specimen();
+    change(s);
+    CHECK_THROWS_AS(s.check(), mergel::InputError);
+  };
+  refused([](SpecimenSpec& s) { std::get<HalfCylinder>(s.region).radius = 0.0; });
+  refused([](SpecimenSpec& s) { std::get<HalfCylinder>(s.region).segments = 1; });
+  refused([](SpecimenSpec& s) { s.scale.S_inner = 0.0; });
+  refused([](SpecimenSpec& s) { s.compaction = Compaction::confined; }); // no pressure
+  refused([](SpecimenSpec& s) { s.friction = -0.1; });
+  refused([](SpecimenSpec& s) { s.porosity = 1.0; });
+  refused([](SpecimenSpec& s) { s.porosity = std::nan(""); });
+  refused([](SpecimenSpec& s) { s.scale.S_outer = 20.0; }); // grains as large as the region
+  // Twice the largest grain, 2 x 0.2674 mm, and the gaps that are looked for, 0.0594 mm.
+  const auto box = [](double edge) {
+    return [edge](SpecimenSpec& s) {
+      s.region = PeriodicBox{Vec3::Constant(edge)};
+      s.scale = {2.0, 2.0, 0.0, 0.0};
+    };
+  };
+  refused(box(0.65e-3));
+  SpecimenSpec fits = small_specimen();
+  box(0.66e-3)(fits);
+  CHECK_NOTHROW(fits.check());
+}

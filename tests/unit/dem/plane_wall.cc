@@ -1,0 +1,104 @@
+#include "tests/support/dem_scene.h"
+
+#include "dem/walls/surfaces.h"
+#include "dem/walls/triangulated.h"
+
+#include <catch2/catch.hpp>
+
+using namespace mergel::dem;
+using namespace mergel::dem::test;
+
+namespace {
+
+constexpr double R = 1e-3;
+
+/// One sphere rolled and pushed about, over a few thousand steps, along the same way each
+/// time.
+void lead_about(Body& b, int step)
+{
+  const double t = 1e-3 * step;
+  b.v = {3.0 * std::cos(3 * t), 3.0 * std::cos(5 * t), 0.05 * std::cos(20 * t)};
+  b.omega = 1e3 * Vec3(std::sin(7 * t), std::sin(2 * t), std::cos(t));
+  b.x += 1e-6 * b.v;
+}
+
+} // namespace
+
+TEST_CASE("A plane and the same plane of triangles give the same force", "[unit][dem]")
+{
+  const LinearMaterial law = contact(1e8, 2.0, 0.3, 1e-5);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.4, Vec3(0.6, 0.8, 0.0)));
+  const Vec3 n = turn * Vec3::UnitZ();
+  const Vec3 v_wall(1e-3, 2e-3, -3e-3);
+
+  Plane plane{Vec3::Zero(), n, v_wall};
+  std::vector<Vec3> x;
+  std::vector<Triangle> triangles;
+  for (int i = 0; i <= 8; ++i)
+    for (int j = 0; j <= 8; ++j)
+      x.push_back(turn * Vec3(2e-3 * (i - 4), 2e-3 * (j - 4), 0.0));
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) {
+      const int q = 9 * i + j;
+      triangles.push_back({q, q + 9, q + 10});
+      triangles.push_back({q, q + 10, q + 1});
+    }
+  Wall wall = make_wall(x, triangles, law);
+  wall.v.assign(x.size(), v_wall);
+
+  Particles one, two;
+  one.add(sphere(0.99 * R * n, R));
+  two.add(sphere(0.99 * R * n, R));
+  SurfaceContacts contacts;
+  contacts.rebuild(one, law.g_a, 1e-3, Vec3::Zero(),
+                   [&](const Body& b) { return plane.touch(b).gap; });
+  REQUIRE(contacts.contacts().size() == 1);
+  PairLosses losses_1, losses_2;
+  double worst = 0.0, largest = 0.0;
+  for (int step = 0; step < 3000; ++step) {
+    lead_about(one.body[0], step);
+    lead_about(two.body[0], step);
+    clear_loads(one);
+    clear_loads(two);
+    rebuild_wall(wall, two, 1e-4);
+    const Vec3 on_plane =
+        add_plane_forces(law, plane, 1e-6, one, contacts, losses_1).value();
+    add_wall_forces({}, false, 1e-6, two, wall, losses_2);
+    worst = std::max(worst, (one.load[0].f - two.load[0].f).norm());
+    worst = std::max(worst, (one.load[0].t - two.load[0].t).norm() / R);
+    worst = std::max(worst, (on_plane + one.load[0].f).norm());
+    largest = std::max(largest, one.load[0].f.norm());
+  }
+  CHECK(largest > 1.0);
+  CHECK(worst <
+        1e-9 * largest); // round-off of gaps of 1e-5 at places of 1e-3: 1e-13 to 1e-11
+  CHECK(losses_1.slip.value() > 0.0);
+  CHECK(losses_1.slip.value() == Approx(losses_2.slip.value()).epsilon(1e-9));
+}
+
+TEST_CASE("A plane pushes along its normal and stops what has passed through",
+          "[unit][dem]")
+{
+  const LinearMaterial law = contact(1e9, 2.0, 0.3, 1e-5);
+  const Plane plane{{0, 0, 5e-3}, {0, 0, 1}, Vec3::Zero()};
+  Particles p;
+  p.add(sphere({1e-3, 2e-3, 5.995e-3}, R));
+  p.add(sphere({9e-3, 2e-3, 9e-3}, R));
+  SurfaceContacts contacts;
+  contacts.rebuild(p, law.g_a, 1e-4, Vec3::Zero(),
+                   [&](const Body& b) { return plane.touch(b).gap; });
+  REQUIRE(contacts.contacts().size() == 1);
+  CHECK_FALSE(contacts.has_moved({0, 0, 0.9e-4}, 1e-4));
+  CHECK(contacts.has_moved({0, 0, 1.1e-4}, 1e-4));
+  PairLosses losses;
+  const Vec3 on_plane = add_plane_forces(law, plane, 0.0, p, contacts, losses).value();
+  CHECK(p.load[0].f.z() == Approx(1e9 * pi * R * 1.5e-5).epsilon(1e-9));
+  CHECK(p.load[0].t.norm() < 1e-15);
+  CHECK(on_plane.z() == Approx(-p.load[0].f.z()).epsilon(1e-14));
+  CHECK(contacts.energy().value() ==
+        Approx(0.5 * 1e9 * pi * R * 1.5e-5 * 1.5e-5).epsilon(1e-9));
+
+  p.body[0].x.z() = 4.999e-3;
+  CHECK_THROWS_AS(add_plane_forces(law, plane, 0.0, p, contacts, losses),
+                  mergel::NumericalError);
+}

@@ -1,0 +1,122 @@
+#include "tests/support/dem_scene.h"
+
+#include "dem/pairs/neighbours.h"
+
+#include <catch2/catch.hpp>
+
+#include <bit>
+
+using namespace mergel::dem;
+using namespace mergel::dem::test;
+
+namespace {
+
+/// Colliding, sliding, partly bonded spheres in a periodic cell.
+Scene gas()
+{
+  Scene s;
+  s.material = {bond_of_table_1(), contact(50e6, 2.0, 0.4, 0.5e-3)};
+  s.cell.size = {0.12, 0.12, 0.12};
+  s.motion.free_rotation = true;
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  for (int a = 0; a < 5; ++a)
+    for (int b = 0; b < 5; ++b)
+      for (int c = 0; c < 5; ++c) {
+        Body body = sphere(0.024 * Vec3(a, b, c) + 0.002 * random_vector(random),
+                           0.008 + 0.004 * u(random));
+        body.v = 4.0 * random_vector(random);
+        body.omega = 100.0 * random_vector(random);
+        s.p.add(body);
+      }
+  auto close = find_pairs(s.p, s.cell, 0.0);
+  close.resize(close.size() / 2);
+  s.bond(close);
+  return s;
+}
+
+struct Outcome {
+  std::vector<Body> body;
+  double slip = 0.0;
+  std::size_t builds = 0, broken = 0;
+};
+
+Outcome run(bool every_step)
+{
+  Scene s = gas();
+  VerletList list(s.material.contact.g_a, 1.5e-3);
+  const double dt = 5e-6;
+  for (int step = 0; step < 1500; ++step) {
+    if (every_step || list.is_stale(s.p)) list.rebuild(s.p, s.cell, s.bonds, s.contacts);
+    const auto before = s.p.body;
+    s.step(dt);
+    double most = 0.0; // over S = 1
+    for (std::size_t i = 0; i < before.size(); ++i)
+      most = std::max(most, (s.p.body[i].x - before[i].x).norm());
+    list.add_motion(most);
+  }
+  return {s.p.body, s.losses.slip.value(), list.n_builds(), s.losses.broken};
+}
+
+} // namespace
+
+TEST_CASE("A rebuild of the list changes no bit of the motion", "[unit][dem]")
+{
+  const Outcome often = run(true), seldom = run(false);
+  CHECK(often.builds == 1500);
+  CHECK(seldom.builds > 5);
+  CHECK(seldom.builds < 300);
+  CHECK(often.slip > 0.0); // friction acted, so there is shear history to lose
+  CHECK(often.broken > 0);
+  CHECK(std::bit_cast<std::uint64_t>(often.slip) ==
+        std::bit_cast<std::uint64_t>(seldom.slip));
+  bool same = true;
+  for (std::size_t i = 0; i < often.body.size(); ++i)
+    same = same && often.body[i].x == seldom.body[i].x &&
+           often.body[i].v == seldom.body[i].v &&
+           often.body[i].omega == seldom.body[i].omega;
+  CHECK(same);
+}
+
+TEST_CASE("A rebuild keeps the shear of its pairs and leaves bonded pairs out",
+          "[unit][dem]")
+{
+  Scene s;
+  for (int k = 0; k < 4; ++k) s.p.add(sphere({2.05e-2 * k, 0, 0}, 1e-2));
+  s.bond({{1, 2}});
+  VerletList list(0.5e-3, 0.5e-3);
+  CHECK(list.is_stale(s.p));
+  list.rebuild(s.p, s.cell, s.bonds, s.contacts);
+  REQUIRE(s.contacts.pairs == std::vector<Pair>{{0, 1}, {2, 3}});
+  s.contacts.shear[1].f_s = {0.0, 3.0, 4.0};
+
+  s.p.body[0].x.x() -= 0.01; // leaves the list
+  list.add_motion(0.01);
+  CHECK(list.is_stale(s.p));
+  list.rebuild(s.p, s.cell, s.bonds, s.contacts);
+  REQUIRE(s.contacts.pairs == std::vector<Pair>{{2, 3}});
+  CHECK(s.contacts.shear[0].f_s == Vec3(0.0, 3.0, 4.0));
+  CHECK_FALSE(list.is_stale(s.p));
+}
+
+TEST_CASE("The list is stale when a particle moved by half its skin", "[unit][dem]")
+{
+  Particles p;
+  Body b = sphere({0, 0, 0}, 1e-2);
+  b.S = 2.0; // its skin is twice as wide
+  p.add(b);
+  p.add(sphere({1, 0, 0}, 1e-2));
+  Contacts contacts;
+  VerletList list(0.0, 1e-3);
+  list.rebuild(p, {}, {}, contacts);
+  p.body[0].x.y() = 0.99e-3;
+  list.add_motion(0.99e-3); // a bound: more than S allows, so the list looks
+  CHECK_FALSE(list.is_stale(p));
+  p.body[0].x.y() = 1.01e-3;
+  list.add_motion(0.01e-3);
+  CHECK(list.is_stale(p));
+  p.body[0].x.y() = 0.0;
+  CHECK(list.wall_allowance() == Approx(0.5e-3)); // the least skin counts for walls
+  list.invalidate();
+  CHECK(list.is_stale(p));
+}

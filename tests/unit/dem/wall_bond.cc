@@ -1,0 +1,98 @@
+#include "tests/support/dem_scene.h"
+
+#include "dem/walls/triangulated.h"
+
+#include <catch2/catch.hpp>
+
+using namespace mergel::dem;
+using namespace mergel::dem::test;
+
+namespace {
+
+constexpr double R = 3e-3;
+
+struct Bonded {
+  Particles p;
+  Wall wall = make_wall({{0, 0, 0}, {10e-3, 0, 0}, {10e-3, 10e-3, 0}, {0, 10e-3, 0}},
+                        {{0, 1, 2}, {0, 2, 3}}, no_contact());
+  DamageBond bond = bond_of_table_1();
+  PairLosses losses;
+
+  Bonded()
+  {
+    p.add(sphere({6e-3, 3e-3, 1.01 * R}, R));
+    p.add(sphere({6e-3, 3e-3, 3.0 * R}, R));
+    bond_to_wall(wall, p, 0.05 * R);
+  }
+  /// Move the wall as one body and take the force of the bond on the particle.
+  Vec3 move_wall(const Vec3& u, bool yields, int steps = 1)
+  {
+    const double dt = 1.0;
+    for (int k = 0; k < steps; ++k) {
+      for (std::size_t n = 0; n < wall.x.size(); ++n) {
+        wall.v[n] = u / (dt * steps);
+        wall.x[n] += u / steps;
+      }
+      update_normals(wall);
+      clear_loads(p);
+      add_wall_forces(bond, yields, dt, p, wall, losses);
+    }
+    return p.load[0].f;
+  }
+};
+
+} // namespace
+
+TEST_CASE("Only particles within the limit are bonded to a wall, and unstressed",
+          "[unit][dem]")
+{
+  Bonded s;
+  REQUIRE(s.wall.bonds.size() == 1);
+  CHECK(s.wall.bonds[0].particle == 0);
+  CHECK(s.wall.bonds[0].gap_0 == Approx(0.01 * R));
+  CHECK(s.p.n_bonds[0] == 1);
+  CHECK(s.p.n_bonds[1] == 0);
+  CHECK(s.move_wall(Vec3::Zero(), true).norm() < 1e-12);
+}
+
+TEST_CASE("A wall bond pulls with E A/R and drags with a kappa-th of it", "[unit][dem]")
+{
+  const double A = pi * R * R / 9.0, k_n = 400e6 * A / R;
+  Bonded s;
+  CHECK(s.move_wall({0, 0, -1e-6}, false).z() == Approx(-k_n * 1e-6).epsilon(1e-9));
+  Bonded t;
+  const Vec3 f = t.move_wall({1e-8, 0, 0}, false);
+  CHECK(f.x() == Approx(0.5 * k_n * 1e-8).epsilon(1e-5)); // the bond tilts by 3e-6
+  CHECK(t.p.load[0].t.y() == Approx(-1.01 * R * f.x()).epsilon(1e-5));
+}
+
+TEST_CASE("A wall bond that may not yield stays elastic, the other one softens and breaks",
+          "[unit][dem]")
+{
+  const double A = pi * R * R / 9.0;
+  Bonded s;
+  const double u_y = 1e6 * R / 400e6;
+  const Vec3 u(0.0, 0.0, -(u_y + 1e-4)); // one u_c beyond yield
+  CHECK(s.move_wall(u, false).z() == Approx(-400e6 * A / R * -u.z()).epsilon(1e-9));
+
+  Bonded t;
+  CHECK(t.move_wall(u, true).z() == Approx(-1e6 * A * std::exp(-1.0)).epsilon(1e-9));
+  CHECK(t.move_wall({0.0, 0.0, -4e-4}, true, 10).norm() == 0.0);
+  CHECK(t.losses.broken == 1);
+  CHECK(t.p.n_bonds[0] == 0);
+}
+
+TEST_CASE("The reaction of a wall bond goes to the nodes with force and moment",
+          "[unit][dem]")
+{
+  Bonded s;
+  const Vec3 on_particle = s.move_wall({1e-6, 2e-6, -1e-6}, false);
+  Vec3 force = on_particle, moment = s.p.body[0].x.cross(on_particle) + s.p.load[0].t;
+  for (std::size_t n = 0; n < s.wall.x.size(); ++n) {
+    force += s.wall.f[n].value();
+    moment += s.wall.x[n].cross(s.wall.f[n].value());
+  }
+  CHECK(on_particle.norm() > 0.1);
+  CHECK(force.norm() < 1e-12 * on_particle.norm() + 1e-14);
+  CHECK(moment.norm() < 1e-12 * on_particle.norm() * R + 1e-16);
+}
