@@ -1,9 +1,9 @@
 #include "fem/far_field/far_field.h"
 
-#include "fem/far_field/boundary_ids.h"
+#include "fem/boundary_ids.h"
 #include "fem/far_field/far_field_mesh.h"
-#include "fem/output.h"
 #include "fem/solid/elastic_solid.h"
+#include "fem/solid/output.h"
 #include "fem/solver/linear_solver.h"
 
 #include <Eigen/Geometry>

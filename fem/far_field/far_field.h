@@ -103,7 +103,7 @@ public:
   /// One sentence with counts and sizes, for the log.
   std::string summary() const;
 
-  /// Displacement, velocity and stress (initial stress included); see fem/output.h.
+  /// Displacement, velocity and stress (initial stress included); see fem/solid/output.h.
   void write_vtu(const std::string& path) const;
 
 private:

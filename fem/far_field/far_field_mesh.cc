@@ -1,6 +1,6 @@
 #include "fem/far_field/far_field_mesh.h"
 
-#include "fem/far_field/boundary_ids.h"
+#include "fem/boundary_ids.h"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 /// An elastic solid as arrays: all that time stepping and static solves need, and no mesh.
 #pragma once
 
-#include "fem/solver/block_matrix.h"
+#include "fem/solid/block_matrix.h"
 
 #include <cstdint>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fem/solid/discrete_solid.h"
-#include "fem/solver/shared_product.h"
+#include "fem/solid/shared_product.h"
 
 #include <span>
 

@@ -1,5 +1,5 @@
 // The far field as the coupling uses it: design.md §§8, 10.
-#include "fem/far_field/boundary_ids.h"
+#include "fem/boundary_ids.h"
 #include "fem/far_field/far_field.h"
 #include "fem/far_field/far_field_mesh.h"
 #include "fem/solid/elastic_solid.h"

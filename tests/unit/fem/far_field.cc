@@ -1,5 +1,5 @@
 #include "fem/far_field/far_field.h"
-#include "fem/far_field/boundary_ids.h"
+#include "fem/boundary_ids.h"
 #include "fem/far_field/far_field_mesh.h"
 #include "tests/support/small_chamber.h"
 

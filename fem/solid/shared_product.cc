@@ -1,4 +1,4 @@
-#include "fem/solver/shared_product.h"
+#include "fem/solid/shared_product.h"
 
 #include <numeric>
 

@@ -1,7 +1,7 @@
 /// The product of a matrix that every rank holds, its rows shared out over the ranks.
 #pragma once
 
-#include "fem/solver/block_matrix.h"
+#include "fem/solid/block_matrix.h"
 
 #include <mpi.h>
 

@@ -1,4 +1,4 @@
-#include "fem/solver/block_matrix.h"
+#include "fem/solid/block_matrix.h"
 
 #include <algorithm>
 #include <cstring>
