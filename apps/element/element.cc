@@ -1,12 +1,14 @@
 /// mergel element: lead a periodic cell of rock along any path of stress and strain.
 #include "apps/element/element_output.h"
 #include "apps/element/element_pictures.h"
+#include "apps/element/element_state.h"
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"
 #include "apps/run/progress.h"
 #include "apps/run/ranks.h"
 #include "apps/run/restart.h"
 #include "apps/run/shared_folder.h"
+#include "dem/timer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +20,7 @@ namespace mergel::apps {
 
 namespace {
 
-std::string words(const ElementRecord& r)
+std::string words(const dem::ElementRecord& r)
 {
   std::ostringstream out;
   out.precision(3);
@@ -29,14 +31,14 @@ std::string words(const ElementRecord& r)
 
 /// A test under way: the rock, what it left on the disk and what is known of it.
 struct Test {
-  std::optional<ElementRun> run;
+  std::optional<dem::ElementTest> run;
   std::optional<ElementHistory> history; ///< on the first rank
   std::optional<ElementPictures> pictures;
-  std::vector<ElementRecord> records;
-  std::vector<Outcome> outcomes; ///< of the leg under way: broke_off
-  double seconds_before = 0.0;   ///< that earlier runs took
+  std::vector<dem::ElementRecord> records;
+  std::vector<dem::Outcome> outcomes; ///< of the leg under way: broke_off
+  double seconds_before = 0.0;        ///< that earlier runs took
 
-  void add(const ElementRecord& r)
+  void add(const dem::ElementRecord& r)
   {
     records.push_back(r);
     on_first_rank([&] { history->add(r); });
@@ -46,21 +48,21 @@ struct Test {
 /// Follow one leg to its end, from its start or the middle, and append its records, the state
 /// at its start first.
 /// @param after_step called between two steps, for checkpoints
-Outcome follow(Test& test, const std::string& name, bool is_under_way,
-               const std::function<void()>& after_step)
+dem::Outcome follow(Test& test, const std::string& name, bool is_under_way,
+                    const std::function<void()>& after_step)
 {
-  ElementRun& run = *test.run;
+  dem::ElementTest& run = *test.run;
   if (!is_under_way) test.add(run.record());
   Progress progress("leg " + std::to_string(run.state().leg + 1) + ", " + name);
   for (;;) {
     const bool approached = run.is_approaching();
     run.step();
-    const Outcome outcome = run.outcome();
+    const dem::Outcome outcome = run.outcome();
     const bool begins = approached && !run.is_approaching();
-    if (outcome != Outcome::goes_on || run.record_is_due() || begins)
+    if (outcome != dem::Outcome::goes_on || run.record_is_due() || begins)
       test.add(run.record());
-    test.pictures->look(outcome != Outcome::goes_on);
-    if (outcome != Outcome::goes_on) {
+    test.pictures->look(outcome != dem::Outcome::goes_on);
+    if (outcome != dem::Outcome::goes_on) {
       progress.done(words(test.records.back()));
       return outcome;
     }
@@ -76,29 +78,29 @@ void follow_all(Test& test, const ElementCase& c, bool is_under_way,
        ++leg) {
     if (!is_under_way) {
       test.run->set_out(leg);
-      test.outcomes.push_back(Outcome::broke_off);
+      test.outcomes.push_back(dem::Outcome::broke_off);
     }
     test.outcomes.back() = follow(test, name_of(c.legs[leg]), is_under_way, after_step);
     is_under_way = false;
-    if (test.outcomes.back() != Outcome::done) return;
+    if (test.outcomes.back() != dem::Outcome::done) return;
   }
 }
 
-void put(dem::State& state, const std::vector<Outcome>& outcomes)
+void put(dem::State& state, const std::vector<dem::Outcome>& outcomes)
 {
   std::vector<std::uint64_t> numbers;
-  for (const Outcome o : outcomes) numbers.push_back(static_cast<std::uint64_t>(o));
+  for (const dem::Outcome o : outcomes) numbers.push_back(static_cast<std::uint64_t>(o));
   state.add_common("element_outcomes", std::move(numbers));
 }
 
 /// Of the legs that were begun, all of the case.
-std::vector<Outcome> take_outcomes(const dem::State& state, const ElementCase& c)
+std::vector<dem::Outcome> take_outcomes(const dem::State& state, const ElementCase& c)
 {
-  std::vector<Outcome> outcomes;
+  std::vector<dem::Outcome> outcomes;
   for (const std::uint64_t n : state.get<std::uint64_t>("element_outcomes")) {
-    if (n > static_cast<std::uint64_t>(Outcome::broke_off))
+    if (n > static_cast<std::uint64_t>(dem::Outcome::broke_off))
       dem::State::refuse("element_outcomes", "names what there is not");
-    outcomes.push_back(static_cast<Outcome>(n));
+    outcomes.push_back(static_cast<dem::Outcome>(n));
   }
   if (outcomes.empty() || outcomes.size() > c.legs.size())
     dem::State::refuse("element_outcomes", "counts legs that there are not");
@@ -106,19 +108,19 @@ std::vector<Outcome> take_outcomes(const dem::State& state, const ElementCase& c
 }
 
 /// What was found in the legs that were begun, and what it took.
-ElementSummary summary_of(const ElementCase& c, const ElementRun& run,
-                          const std::vector<Outcome>& outcomes,
-                          const std::vector<ElementRecord>& records, double seconds)
+ElementSummary summary_of(const ElementCase& c, const dem::ElementTest& run,
+                          const std::vector<dem::Outcome>& outcomes,
+                          const std::vector<dem::ElementRecord>& records, double seconds)
 {
   ElementSummary s;
   s.legs = analyse(c, outcomes, records);
-  for (const ElementRecord& r : records) {
+  for (const dem::ElementRecord& r : records) {
     s.worst_energy_error = std::max(s.worst_energy_error, std::abs(r.energy_error));
     s.greatest_inertial_number = std::max(s.greatest_inertial_number, r.inertial_number);
   }
   s.last = records.back();
   s.critical = critical_states(c, s.last);
-  const ElementState& state = run.state();
+  const dem::ElementState& state = run.state();
   s.n_particles = state.rock.particles.size();
   s.greatest_rate = state.greatest_rate;
   s.n_steps = state.n_steps;
@@ -175,8 +177,8 @@ void check_legs(const CaseFile& file, const ElementCase& c, const Restart& resta
 
 void put(dem::State& state, const Test& test)
 {
-  test.run->put(state);
-  put(state, test.records);
+  apps::put(state, test.run->state());
+  apps::put(state, test.records);
   put(state, test.outcomes);
   test.pictures->put(state);
   ElementHistory::put(state, test.history ? &*test.history : nullptr);
@@ -185,10 +187,10 @@ void put(dem::State& state, const Test& test)
 void begin(Test& test, const CaseFile& file, const ElementCase& c, OutputFolder& folder,
            const std::vector<std::filesystem::path>& inputs)
 {
-  ElementRock rock = obtain_rock(file, c);
+  dem::PeriodicSpecimen rock = obtain_rock(file, c);
   const dem::PairMaterials materials = resolved_materials(c, rock);
   std::cout << report(c, rock, materials) << '\n';
-  test.run.emplace(c, std::move(rock), materials);
+  test.run.emplace(c, std::move(rock), materials, MPI_COMM_WORLD);
   on_first_rank([&] {
     folder.commit(inputs);
     file.write_resolved(folder.path() / "resolved.prm");
@@ -205,7 +207,7 @@ void go_on(Test& test, const CaseFile& file, const ElementCase& c, OutputFolder&
   test.records = take_records(state);
   test.outcomes = take_outcomes(state, c);
   test.seconds_before = state.get_rows<double>("seconds", 1).front();
-  test.run.emplace(c, state);
+  test.run.emplace(c, take_element(state, c), MPI_COMM_WORLD);
   if (has_changed(restart, "Motion", "time step safety")) test.run->lower_time_step();
   on_first_rank([&] {
     go_on_in(folder, inputs, file, restart);
@@ -254,9 +256,9 @@ int run_element(const JobOptions& options)
   restart.reset(); // its arrays are no longer needed
 
   const auto after_step = [&] {
-    const ElementState& s = test.run->state();
+    const dem::ElementState& s = test.run->state();
     const std::string stage = "leg " + std::to_string(s.leg + 1);
-    keeper.after_step(s.rock.domain, {s.n_steps, s.time, stage.c_str()},
+    keeper.after_step(s.rock.comm, {s.n_steps, s.time, stage.c_str()},
                       [&](dem::State& state) {
                         put(state, test);
                         state.add_common<double>("seconds", {seconds()});

@@ -4,8 +4,8 @@
 #include "apps/case/words.h"
 #include "apps/specimen/specimen.h"
 #include "dem/error.h"
-#include "dem/io/history.h"
 #include "dem/io/table.h"
+#include "dem/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,16 +16,17 @@ namespace mergel::apps {
 
 namespace {
 
-void declare_size_effect(CaseFile& file, SizeEffect& e)
+void declare_size_effect(CaseFile& file, SizeEffectKeys& e)
 {
   const auto section = file.section("Size effect");
   file.flag("size effect", e.is_on,
             "Multiply the strengths of the bonds by psi (B_ref/B)^0.18, Eqs. 17-19.");
   file.quantity("sample width", e.width, "m", non_negative,
                 "B; 0 takes the mean edge of the cell.", "mm");
-  file.quantity("reference width", e.reference_width, "m", positive,
+  file.quantity("reference width", e.law.reference_width, "m", positive,
                 "B_ref, at which the strengths of section Bond hold.", "mm");
-  file.number("psi", e.psi, positive, "Factor at any width but the reference's, Eq. 16.");
+  file.number("psi", e.law.psi, positive,
+              "Factor at any width but the reference's, Eq. 16.");
 }
 
 void declare_loading(CaseFile& file, ElementCase& c)
@@ -128,12 +129,6 @@ std::string key_of_leg(std::size_t k)
   return "leg " + std::to_string(k + 1);
 }
 
-double SizeEffect::factor(double B) const
-{
-  if (!is_on || std::abs(B / reference_width - 1.0) < 0.01) return 1.0;
-  return psi * std::pow(reference_width / B, 0.18); // B > 0: a width
-}
-
 void declare(CaseFile& file, ElementCase& c)
 {
   c.specimen.shape = SpecimenKeys::Shape::periodic_box;
@@ -194,26 +189,20 @@ void complete(CaseFile& file, ElementCase& c)
     c.critical_states.push_back(last_state(file, folder));
 }
 
-ElementRock obtain_rock(const CaseFile& file, const ElementCase& c)
+dem::PeriodicSpecimen obtain_rock(const CaseFile& file, const ElementCase& c)
 {
   dem::Sample sample = obtain_sample(file, c.specimen);
   return {std::move(sample.packing.particles), sample.packing.cell,
           std::move(sample.bonding.pairs)};
 }
 
-double list_skin(const dem::Particles& p)
-{
-  double least = std::numeric_limits<double>::infinity();
-  for (const dem::Body& b : p.body) least = std::min(least, 2.0 * b.R / b.S);
-  return dem::usual_skin * least;
-}
-
-double sample_width(const ElementCase& c, const ElementRock& rock)
+double sample_width(const ElementCase& c, const dem::PeriodicSpecimen& rock)
 {
   return c.size_effect.width > 0.0 ? c.size_effect.width : rock.cell.size.mean();
 }
 
-dem::PairMaterials resolved_materials(const ElementCase& c, const ElementRock& rock)
+dem::PairMaterials resolved_materials(const ElementCase& c,
+                                      const dem::PeriodicSpecimen& rock)
 {
   dem::PairMaterials m{c.bond.chosen(), c.contact};
   const double factor = c.size_effect.factor(sample_width(c, rock));
@@ -221,7 +210,7 @@ dem::PairMaterials resolved_materials(const ElementCase& c, const ElementRock& r
   return m;
 }
 
-std::string report(const ElementCase& c, const ElementRock& rock,
+std::string report(const ElementCase& c, const dem::PeriodicSpecimen& rock,
                    const dem::PairMaterials& materials)
 {
   const dem::GrainRange range = dem::describe_grains(rock.particles);

@@ -3,6 +3,7 @@
 #include "apps/case/words.h"
 #include "apps/run/progress.h"
 #include "dem/io/atomic_file.h"
+#include "dem/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,7 +110,7 @@ void ElementHistory::check(const std::filesystem::path& file, const dem::State& 
   dem::check_history(file, mark_in(state));
 }
 
-void ElementHistory::add(const ElementRecord& r)
+void ElementHistory::add(const dem::ElementRecord& r)
 {
   const dem::CellAverages& a = r.averages;
   const dem::EnergyBook& e = r.book;
@@ -176,14 +177,15 @@ namespace {
 /// approach and without the loops of unloading and reloading.
 class Backbone {
 public:
-  Backbone(const std::vector<ElementRecord>& records, std::size_t first, std::size_t last)
+  Backbone(const std::vector<dem::ElementRecord>& records, std::size_t first,
+           std::size_t last)
   {
-    for (const ElementRecord& r : records) {
+    for (const dem::ElementRecord& r : records) {
       if (r.leg < first || r.leg > last || r.is_approach) continue;
       if (r.leg == first) direction_ = r.driven_strain < 0.0 ? -1.0 : 1.0;
     }
     double farthest = -1.0;
-    for (const ElementRecord& r : records) {
+    for (const dem::ElementRecord& r : records) {
       if (r.leg < first || r.leg > last || r.is_approach) continue;
       if (direction_ * r.driven_strain <= farthest) continue;
       farthest = direction_ * r.driven_strain;
@@ -288,10 +290,10 @@ void read_stress_ratio(std::vector<Finding>& found, const Backbone& leg)
                      dem::friction_angle(end.stress) * 180.0 / dem::pi});
 }
 
-void read_resumed(std::vector<Finding>& found, const std::vector<ElementRecord>& records,
-                  std::size_t leg)
+void read_resumed(std::vector<Finding>& found,
+                  const std::vector<dem::ElementRecord>& records, std::size_t leg)
 {
-  const auto is_of = [&](const ElementRecord& r) { return r.leg == leg; };
+  const auto is_of = [&](const dem::ElementRecord& r) { return r.leg == leg; };
   const auto first = std::find_if(records.begin(), records.end(), is_of);
   const auto last = std::find_if(records.rbegin(), records.rend(), is_of);
   if (first == records.end()) return;
@@ -356,8 +358,9 @@ void read_path(std::vector<Finding>& found, const ElementCase& c, const dem::Leg
 
 } // namespace
 
-std::vector<LegResult> analyse(const ElementCase& c, const std::vector<Outcome>& outcomes,
-                               const std::vector<ElementRecord>& records)
+std::vector<LegResult> analyse(const ElementCase& c,
+                               const std::vector<dem::Outcome>& outcomes,
+                               const std::vector<dem::ElementRecord>& records)
 {
   std::vector<LegResult> results;
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
@@ -378,7 +381,7 @@ std::vector<LegResult> analyse(const ElementCase& c, const std::vector<Outcome>&
   return results;
 }
 
-CriticalStates critical_states(const ElementCase& c, const ElementRecord& last)
+CriticalStates critical_states(const ElementCase& c, const dem::ElementRecord& last)
 {
   CriticalStates all{c.critical_states, {}};
   all.states.push_back({last.whole.p(), last.whole.q(), last.averages.void_ratio});
@@ -399,7 +402,7 @@ void write_summary(const std::filesystem::path& file, const ElementCase& c,
   const char* comma = "\n";
   for (const LegResult& leg : s.legs) {
     out << comma << "    {\n      \"leg\": \"" << leg.name << "\",\n      \"outcome\": \""
-        << sentence_of(leg.outcome) << "\"";
+        << dem::sentence_of(leg.outcome) << "\"";
     for (const Finding& f : leg.findings)
       out << ",\n      \"" << f.name << " [" << f.unit << "]\": " << dem::shortest(f.value);
     out << "\n    }";
@@ -443,7 +446,7 @@ void print_summary(const std::filesystem::path& file, const ElementSummary& s)
   out << '\n';
   for (std::size_t k = 0; k < s.legs.size(); ++k) {
     const LegResult& leg = s.legs[k];
-    out << "leg " << k + 1 << ", " << leg.name << ": " << sentence_of(leg.outcome);
+    out << "leg " << k + 1 << ", " << leg.name << ": " << dem::sentence_of(leg.outcome);
     for (const Finding& f : leg.findings) {
       const bool is_stress = f.unit == "Pa";
       out << "; " << f.name << ' ' << (is_stress ? 1e-6 * f.value : f.value)

@@ -25,7 +25,7 @@ dem::Field stress_field(const dem::Rock& rock)
 } // namespace
 
 ElementPictures::ElementPictures(const std::filesystem::path& folder, const ElementCase& c,
-                                 ElementRun& run)
+                                 dem::ElementTest& run)
     : when_(c.pictures), every_(c.picture_every), run_(run),
       size_taken_(run.rock().cell.size)
 {
@@ -34,7 +34,8 @@ ElementPictures::ElementPictures(const std::filesystem::path& folder, const Elem
 }
 
 ElementPictures::ElementPictures(const std::filesystem::path& folder, const ElementCase& c,
-                                 ElementRun& run, const std::filesystem::path& earlier,
+                                 dem::ElementTest& run,
+                                 const std::filesystem::path& earlier,
                                  const dem::State& state)
     : when_(c.pictures), every_(c.picture_every), run_(run)
 {

@@ -1,8 +1,10 @@
 /// Pictures of an element test for ParaView: its grains and bonds, as a series in time.
 #pragma once
 
-#include "apps/element/element_run.h"
+#include "apps/element/element_case.h"
 #include "apps/run/frames.h"
+#include "dem/element/element_test.h"
+#include "dem/io/state/state_file.h"
 
 #include <filesystem>
 #include <optional>
@@ -16,11 +18,11 @@ class ElementPictures {
 public:
   /// The rock before the first leg is the first picture. Collective, as is look().
   ElementPictures(const std::filesystem::path& folder, const ElementCase& c,
-                  ElementRun& run);
+                  dem::ElementTest& run);
   /// Go on with those that `earlier`, which may be the same folder, held when put() wrote
   /// `state`.
   ElementPictures(const std::filesystem::path& folder, const ElementCase& c,
-                  ElementRun& run, const std::filesystem::path& earlier,
+                  dem::ElementTest& run, const std::filesystem::path& earlier,
                   const dem::State& state);
 
   /// Take a picture where one is due: a leg ends, or an edge was strained by so much.
@@ -35,7 +37,7 @@ private:
 
   ElementCase::Pictures when_;
   double every_;
-  ElementRun& run_;
+  dem::ElementTest& run_;
   std::vector<dem::Vec3> x_0_;   ///< of the first picture [m]
   dem::Vec3 size_taken_;         ///< of the cell in the last one [m]
   std::optional<Frames> frames_; ///< on the first rank

@@ -1,6 +1,6 @@
 /// The state of an element run and what it has recorded, as named arrays, and back.
-#include "apps/element/element_run.h"
-#include "dem/assembly/distribute.h"
+#include "apps/element/element_state.h"
+
 #include "dem/io/state/assembly_state.h"
 
 #include <algorithm>
@@ -117,7 +117,7 @@ NumbersOf<double, Self> record_numbers_of(Self& r)
 
 std::size_t n_record_numbers()
 {
-  const ElementRecord any;
+  const dem::ElementRecord any;
   return record_numbers_of(any).size();
 }
 
@@ -139,49 +139,45 @@ void take_values(const std::vector<Number*>& all, const Value* from)
 
 } // namespace
 
-void ElementRun::put(dem::State& state) const
+void put(dem::State& state, const dem::ElementState& s)
 {
-  dem::put(state, state_.rock);
-  state.add_common("element_numbers", values_at(numbers_of(state_)));
-  const std::vector<std::size_t> counts = values_at(counts_of(state_));
+  dem::put(state, s.rock);
+  state.add_common("element_numbers", values_at(numbers_of(s)));
+  const std::vector<std::size_t> counts = values_at(counts_of(s));
   state.add_common("element_counts",
                    std::vector<std::uint64_t>(counts.begin(), counts.end()));
-  state.add_common("element_choices", choices_of(state_.course));
-  state.add_common<double>("element_grains", {d_, rho_});
+  state.add_common("element_choices", choices_of(s.course));
+  state.add_common<double>("element_grains", {s.mean_diameter, s.density});
 }
 
-ElementRun::ElementRun(const ElementCase& c, dem::State& state) : case_(c)
+dem::ElementState take_element(dem::State& state, const ElementCase& c)
 {
-  const auto numbers = numbers_of(state_);
+  dem::ElementState s;
+  const auto numbers = numbers_of(s);
   take_values(numbers, state.get_rows<double>("element_numbers", numbers.size()).data());
-  const auto counts = counts_of(state_);
+  const auto counts = counts_of(s);
   take_values(counts,
               state.get_rows<std::uint64_t>("element_counts", counts.size()).data());
-  if (state_.leg >= c.legs.size())
+  if (s.leg >= c.legs.size())
     dem::State::refuse("element_counts", "names a leg that there is not");
-  take_choices(state.get_rows<std::uint64_t>("element_choices", 8), state_.course);
+  take_choices(state.get_rows<std::uint64_t>("element_choices", 8), s.course);
   const auto& grains = state.get_rows<double>("element_grains", 2);
-  d_ = grains[0];
-  rho_ = grains[1];
+  s.mean_diameter = grains[0];
+  s.density = grains[1];
 
-  dem::Rock& r = state_.rock;
   dem::PeriodicCell first; // strengths are those of the cell before the first leg
-  first.size = state_.size_0;
-  r.material = resolved_materials(c, {{}, first, {}});
-  r.motion.damping = c.damping;
-  r.motion.free_rotation = c.free_rotation;
-  dem::take(state, r);
-  dem::draw_strengths(c.specimen.strengths, r.particles);
-  r.list = dem::VerletList(r.material.contact.g_a, list_skin(r.particles));
-  dem::share_out(r, MPI_COMM_WORLD);
-  dem::rebuild_lists(r);
+  first.size = s.size_0;
+  s.rock.material = resolved_materials(c, {{}, first, {}});
+  dem::take(state, s.rock);
+  dem::draw_strengths(c.specimen.strengths, s.rock.particles);
+  return s;
 }
 
-void put(dem::State& state, const std::vector<ElementRecord>& records)
+void put(dem::State& state, const std::vector<dem::ElementRecord>& records)
 {
   std::vector<double> numbers;
   std::vector<std::uint64_t> counts;
-  for (const ElementRecord& r : records) {
+  for (const dem::ElementRecord& r : records) {
     for (const double* a : record_numbers_of(r)) numbers.push_back(*a);
     counts.insert(counts.end(), {r.leg, r.is_approach, r.broken});
     counts.insert(counts.end(), r.broken_by.begin(), r.broken_by.end());
@@ -190,14 +186,14 @@ void put(dem::State& state, const std::vector<ElementRecord>& records)
   state.add_common("record_counts", std::move(counts), record_counts);
 }
 
-std::vector<ElementRecord> take_records(const dem::State& state)
+std::vector<dem::ElementRecord> take_records(const dem::State& state)
 {
   const std::size_t n_numbers = n_record_numbers();
   const auto& counts = state.get<std::uint64_t>("record_counts", record_counts);
-  std::vector<ElementRecord> records(counts.size() / record_counts);
+  std::vector<dem::ElementRecord> records(counts.size() / record_counts);
   const auto& numbers = state.get_rows<double>("record_numbers", records.size(), n_numbers);
   for (std::size_t k = 0; k < records.size(); ++k) {
-    ElementRecord& r = records[k];
+    dem::ElementRecord& r = records[k];
     take_values(record_numbers_of(r), &numbers[k * n_numbers]);
     const std::uint64_t* n = &counts[k * record_counts];
     r.leg = n[0];

@@ -3,7 +3,7 @@
 #include "apps/case/units.h"
 #include "apps/case/words.h"
 #include "dem/error.h"
-#include "dem/io/history.h"
+#include "dem/text.h"
 
 #include <algorithm>
 #include <array>
