@@ -1,5 +1,6 @@
 /// The program: reads the command line, starts MPI, runs one job.
 
+#include "apps/case/walltime.h"
 #include "apps/case/words.h"
 #include "apps/run/checkpoint_scheduler.h"
 #include "apps/run/command_line.h"

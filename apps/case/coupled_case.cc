@@ -1,6 +1,6 @@
 #include "apps/case/coupled_case.h"
 
-#include "dem/io/history.h"
+#include "dem/text.h"
 
 #include <cmath>
 
@@ -35,10 +35,10 @@ void declare_far_field(CaseFile& file, RockCase& c)
                   {"fixed", fem::FarFieldSpec::Outer::fixed}},
               "Chamber wall: no radial displacement, or none at all.");
   file.choice("interface", c.interface_bond,
-              std::vector<std::pair<std::string, dem::InterfaceBond>>{
-                  {"bonded", dem::InterfaceBond::bonded},
-                  {"breakable", dem::InterfaceBond::breakable},
-                  {"frictional", dem::InterfaceBond::frictional}},
+              std::vector<std::pair<std::string, InterfaceBond>>{
+                  {"bonded", InterfaceBond::bonded},
+                  {"breakable", InterfaceBond::breakable},
+                  {"frictional", InterfaceBond::frictional}},
               "How grains hold to the far field: elastic bonds, bonds that may break, "
               "contact only.");
   c.interface = {0.63e9, 2.4, 0.3, 0.0};

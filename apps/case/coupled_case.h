@@ -15,6 +15,13 @@ enum class FarFieldModel {
   rigid    ///< the same walls, held
 };
 
+/// How the interface holds the particles next to it.
+enum class InterfaceBond {
+  bonded,    ///< does not break
+  breakable, ///< follows the bond law
+  frictional ///< contact only
+};
+
 /// The DEM region is a half cylinder inside the far field.
 struct RockCase : SpecimenKeys {
   BondKeys bond;
@@ -24,7 +31,7 @@ struct RockCase : SpecimenKeys {
   FarFieldModel model = FarFieldModel::elastic;
   fem::FarFieldSpec far_field;
   dem::LinearMaterial interface;
-  dem::InterfaceBond interface_bond = dem::InterfaceBond::bonded;
+  InterfaceBond interface_bond = InterfaceBond::bonded;
   double lip = 2e-3; ///< [m]
 
   // Motion

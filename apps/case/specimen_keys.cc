@@ -1,8 +1,8 @@
 #include "apps/case/specimen_keys.h"
 
-#include "dem/io/history.h"
 #include "dem/io/psd_file.h"
 #include "dem/io/seal.h"
+#include "dem/text.h"
 
 #include <cmath>
 #include <fstream>
@@ -50,8 +50,8 @@ void declare_shape(CaseFile& file, SpecimenKeys& k)
   }
   const auto only = file.only_if("shape", {half_cylinder});
   file.choice("symmetry", k.symmetry,
-              std::vector<std::pair<std::string, dem::Symmetry>>{
-                  {"mirror", dem::Symmetry::mirror}, {"wall", dem::Symmetry::wall}},
+              std::vector<std::pair<std::string, Symmetry>>{{"mirror", Symmetry::mirror},
+                                                            {"wall", Symmetry::wall}},
               "Cut plane: grains bonded to their mirror image, or images in contact only.");
 }
 

@@ -4,10 +4,15 @@
 
 #include "apps/case/material_keys.h"
 #include "apps/case/strength_keys.h"
-#include "dem/assembly/step.h"
 #include "dem/io/sample_file.h"
 
 namespace mergel::apps {
+
+/// What holds the half model at its symmetry plane.
+enum class Symmetry {
+  mirror, ///< each particle near the plane is bonded to its image: the plane carries tension
+  wall    ///< images act by their contact only
+};
 
 struct SpecimenKeys {
   enum class Shape { half_cylinder, cylinder, periodic_box };
@@ -30,7 +35,7 @@ struct SpecimenKeys {
   double S = unset; ///< the same everywhere
 
   dem::SpecimenSpec specimen; ///< region, sizes and contact are set by complete()
-  dem::Symmetry symmetry = dem::Symmetry::mirror;
+  Symmetry symmetry = Symmetry::mirror;
   std::filesystem::path sample;       ///< empty: make the specimen
   dem::StrengthVariability strengths; ///< drawn by each run: no part of a sample's recipe
 };

@@ -5,7 +5,8 @@
 #include "apps/run/progress.h"
 #include "apps/run/run_guard.h"
 #include "dem/assembly/step.h"
-#include "dem/io/history.h"
+#include "dem/text.h"
+#include "dem/timer.h"
 
 #include <algorithm>
 #include <charconv>
@@ -31,12 +32,12 @@ constexpr double margin = 2.0; // [s]
 constexpr double least_rate = 20e6; // [bytes/s]
 
 /// All ranks together; collective.
-double n_bytes(const dem::State& mine, const dem::Domain& domain)
+double n_bytes(const dem::State& mine, const dem::Communicator& comm)
 {
   std::size_t n = 0;
   for (const auto& [name, array] : mine.arrays())
     n += std::visit([](const auto& v) { return v.size() * sizeof(v[0]); }, array.values);
-  return static_cast<double>(domain.sum(n));
+  return static_cast<double>(comm.global_sum(n));
 }
 
 } // namespace
@@ -81,92 +82,41 @@ void complete(const CaseFile& file, CheckpointKey& key)
   }
 }
 
-namespace {
-
-/// [hours:]minutes:seconds, or days-hours[:minutes[:seconds]] [s]; NaN for what is neither.
-double read_clock(const std::string& text)
-{
-  constexpr double wrong = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> parts;
-  bool has_days = false;
-  for (const char *at = text.data(), *const end = at + text.size();; ++at) {
-    unsigned part = 0;
-    const auto read = std::from_chars(at, end, part);
-    if (read.ec != std::errc{}) return wrong;
-    parts.push_back(part);
-    at = read.ptr;
-    if (at == end) break;
-    if (*at == '-' && parts.size() == 1)
-      has_days = true;
-    else if (*at != ':')
-      return wrong;
-  }
-  if (parts.size() > (has_days ? 4 : 3)) return wrong;
-  double seconds = 0.0;
-  if (has_days) {
-    parts.resize(4); // what is left out is 0
-    parts[1] += 24.0 * parts[0];
-    parts[0] = 0.0;
-  }
-  for (const double part : parts) seconds = 60.0 * seconds + part;
-  return seconds;
-}
-
-} // namespace
-
-double to_walltime(const std::string& text)
-{
-  const InputError wrong(
-      "mergel: --walltime " + text +
-      ": is no time above 0; expected for example \"4 h\", \"30 min\", \"4:00:00\" or "
-      "\"1-12:00:00\"");
-  const bool is_clock = text.find_first_of(":-") != std::string::npos &&
-                        text.find_first_not_of("0123456789:-") == std::string::npos;
-  double seconds = 0.0;
-  try {
-    seconds = is_clock ? read_clock(text) : to_si(text, "s");
-  } catch (const InputError&) {
-    throw wrong;
-  }
-  if (!(seconds > 0.0)) throw wrong;
-  return seconds;
-}
-
 Keeper::Keeper(KeeperSpec spec)
     : spec_(std::move(spec)), last_(spec_.restarted_from), written_(dem::wall_clock()),
       asked_(written_)
 {
 }
 
-Keeper::Wish Keeper::wish_here(const dem::Domain& domain, const Position& at)
+Keeper::Wish Keeper::wish_here(const dem::Communicator& comm, const Position& at)
 {
   if (signals_.wants_stop()) return stop;
   const double now = dem::wall_clock();
   between_ = std::max(between_, now - asked_);
   asked_ = now;
   // Clocks differ: the first rank's counts.
-  if (domain.rank() == 0 && now + margin + 2.0 * (longest_ + between_) > spec_.end)
+  if (comm.rank() == 0 && now + margin + 2.0 * (longest_ + between_) > spec_.end)
     return stop_in_time;
-  const bool is_due = domain.rank() == 0 && now - written_ >= spec_.every.seconds;
+  const bool is_due = comm.rank() == 0 && now - written_ >= spec_.every.seconds;
   const bool is_at_step = spec_.every.steps > 0 && at.step % spec_.every.steps == 0;
   return is_due || is_at_step || signals_.wants_checkpoint() ? write : none;
 }
 
-void Keeper::after_step(const dem::Domain& domain, const Position& at,
+void Keeper::after_step(const dem::Communicator& comm, const Position& at,
                         const std::function<void(dem::State&)>& put)
 {
   const bool is_at_step = spec_.every.steps > 0 && at.step % spec_.every.steps == 0;
   if (!is_at_step && at.step % steps_between_looks != 0) return;
   if (!has_estimate_ && std::isfinite(spec_.end)) {
-    dem::State mine(domain.rank());
+    dem::State mine(comm.rank());
     put(mine);
-    longest_ = n_bytes(mine, domain) / least_rate;
+    longest_ = n_bytes(mine, comm) / least_rate;
     has_estimate_ = true;
   }
   const auto wish = static_cast<Wish>(
-      static_cast<int>(domain.greatest(static_cast<double>(wish_here(domain, at)))));
+      static_cast<int>(comm.global_max(static_cast<double>(wish_here(comm, at)))));
   if (wish == none) return;
-  write_now(domain, at, put);
+  write_now(comm, at, put);
   if (wish == write) return;
   throw Stopped(std::string(wish == stop ? "stopped by SIGTERM"
                                          : "stopped before the end of --walltime") +
@@ -175,21 +125,21 @@ void Keeper::after_step(const dem::Domain& domain, const Position& at,
                 how_to_continue());
 }
 
-void Keeper::write_now(const dem::Domain& domain, const Position& at,
+void Keeper::write_now(const dem::Communicator& comm, const Position& at,
                        const std::function<void(dem::State&)>& put)
 {
   const double start = dem::wall_clock();
-  dem::State mine(domain.rank());
+  dem::State mine(comm.rank());
   const fs::path file = spec_.folder / dem::checkpoint_name(at.step);
   try {
     put(mine);
     dem::write_checkpoint(
         file, {MERGEL_VERSION, spec_.job, at.stage, spec_.case_text, at.step, at.time},
-        std::move(mine), domain);
+        std::move(mine), comm);
   } catch (const CollectiveFailure& e) {
     throw Remedied(e.what() + remedy());
   }
-  if (domain.rank() == 0) dem::keep_newest(file, n_kept);
+  if (comm.rank() == 0) dem::keep_newest(file, n_kept);
   last_ = file;
   signals_.checkpointed();
   asked_ = written_ = dem::wall_clock();

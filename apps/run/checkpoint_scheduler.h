@@ -5,6 +5,7 @@
 #include "apps/case/case_file.h"
 #include "apps/run/signals.h"
 #include "dem/io/state/checkpoint.h"
+#include "dem/timer.h"
 
 #include <functional>
 #include <limits>
@@ -30,10 +31,6 @@ struct CheckpointKey {
 void declare(CaseFile& file, CheckpointKey& key);
 /// @throws InputError naming file, line and key
 void complete(const CaseFile& file, CheckpointKey& key);
-
-/// "4h", "30 min", "4:00:00" or, as Slurm writes it, "1-12:00:00" or "1-12": what --walltime
-/// takes [s]. @throws InputError
-double to_walltime(const std::string& text);
 
 /// A failure whose words already say how to go on.
 struct Remedied : CollectiveFailure {
@@ -71,7 +68,7 @@ public:
   /// @param put adds the state of the run, each rank its part; collective
   /// @throws Stopped after SIGTERM and before the end of the walltime; CollectiveFailure
   ///   when the checkpoint cannot be written, naming the last good one
-  void after_step(const dem::Domain& domain, const Position& at,
+  void after_step(const dem::Communicator& comm, const Position& at,
                   const std::function<void(dem::State&)>& put);
 
   /// "; the last checkpoint is ..., continue with ...", for a message on a failure.
@@ -91,8 +88,8 @@ public:
 
 private:
   enum Wish : int { none, write, stop_in_time, stop };
-  Wish wish_here(const dem::Domain& domain, const Position& at);
-  void write_now(const dem::Domain& domain, const Position& at,
+  Wish wish_here(const dem::Communicator& comm, const Position& at);
+  void write_now(const dem::Communicator& comm, const Position& at,
                  const std::function<void(dem::State&)>& put);
   std::string how_to_continue() const;
   std::string remedy_of_instability() const;

@@ -11,20 +11,20 @@ namespace {
 /// Records of legs that a person could draw by hand; stresses in Pa.
 struct Course {
   ElementCase c;
-  std::vector<Outcome> outcomes;
-  std::vector<ElementRecord> records;
+  std::vector<dem::Outcome> outcomes;
+  std::vector<dem::ElementRecord> records;
 
   void leg(const std::string& text)
   {
     for (const dem::Leg& l : read_legs(text)) {
       c.legs.push_back(l);
-      outcomes.push_back(Outcome::done);
+      outcomes.push_back(dem::Outcome::done);
     }
   }
   void add(std::size_t leg, double driven_strain, const dem::Vec3& strain,
            const dem::Vec3& stress, bool is_approach = false)
   {
-    ElementRecord r;
+    dem::ElementRecord r;
     r.leg = leg;
     r.driven_strain = driven_strain;
     r.of_leg = {stress, strain};

@@ -4,6 +4,7 @@
 #include "dem/assembly/step.h"
 #include "dem/error.h"
 #include "dem/io/history.h"
+#include "dem/timer.h"
 #include "tests/support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -29,7 +30,7 @@ std::vector<std::uint64_t> steps_written(Keeper& keeper, const fs::path& folder,
 {
   std::vector<std::uint64_t> steps;
   for (std::uint64_t step = 1; step <= n; ++step) {
-    keeper.after_step(dem::Domain(), {step, 1e-6, "driving"}, [](dem::State& state) {
+    keeper.after_step(dem::Communicator(), {step, 1e-6, "driving"}, [](dem::State& state) {
       state.add<double>("x", {1.0, 2.0});
     });
     if (fs::exists(folder / dem::checkpoint_name(step))) steps.push_back(step);
@@ -57,23 +58,6 @@ TEST_CASE("A cadence is a time, a number of steps or never", "[unit][apps]")
   for (const char* wrong : {"", "10", "10 mm", "0 s", "-1 min", "0 steps", "2.5 steps",
                             "-3 steps", "steps", "always"})
     CHECK_THROWS_AS(to_cadence(wrong), InputError);
-}
-
-TEST_CASE("A walltime is read as a cluster writes it", "[unit][apps]")
-{
-  CHECK(to_walltime("4h") == 14400.0);
-  CHECK(to_walltime("30 min") == 1800.0);
-  CHECK(to_walltime("4:00:00") == 14400.0);
-  CHECK(to_walltime("90:30") == 5430.0);
-  CHECK(to_walltime("1-00:00:00") == 86400.0);
-  CHECK(to_walltime("2-03:04:05") == 183845.0);
-  CHECK(to_walltime("0-12:30") == 45000.0);
-  CHECK(to_walltime("7-12") == 648000.0);
-  CHECK(to_walltime("1e-3 h") == Approx(3.6)); // no day
-  for (const char* wrong :
-       {"", "4", "4 mm", "0 s", "1:2:3:4", "4:", ":4", "a:b", "0:00", "1-", "-1", "-1 h",
-        "1-2-3", "1-2:3:4:5", "4:1-2", "0-00:00:00", "1-a", "99999999999-00"})
-    CHECK_THROWS_AS(to_walltime(wrong), InputError);
 }
 
 TEST_CASE("Checkpoints come at their steps, on SIGUSR1 at the next look, and two are kept",
@@ -130,14 +114,14 @@ TEST_CASE(
     state.add("x", std::vector<double>(10'000'000, 1.0));
   };
   // 4 s at 20 MB/s, twice, and the margin of 2 s leave 2 s: no cause to stop yet.
-  keeper.after_step(dem::Domain(), {10, 1e-6, "driving"}, put_80_MB);
+  keeper.after_step(dem::Communicator(), {10, 1e-6, "driving"}, put_80_MB);
   CHECK(keeper.n_written() == 0);
   Keeper late({.folder = folder.path,
                .job = "pile",
                .case_text = "",
                .every = {},
                .end = dem::wall_clock() + 9.0});
-  CHECK_THROWS_WITH(late.after_step(dem::Domain(), {10, 1e-6, "driving"}, put_80_MB),
+  CHECK_THROWS_WITH(late.after_step(dem::Communicator(), {10, 1e-6, "driving"}, put_80_MB),
                     Contains("stopped before the end of --walltime at step 10"));
 }
 
