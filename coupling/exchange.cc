@@ -1,6 +1,7 @@
 #include "coupling/exchange.h"
 
 #include "dem/assembly/step.h"
+#include "dem/timer.h"
 
 #include <cmath>
 #include <map>

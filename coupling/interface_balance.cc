@@ -5,14 +5,14 @@
 namespace mergel::coupling {
 
 InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
-                                   const Nodal& x_fem, const dem::Domain& domain)
+                                   const Nodal& x_fem, const dem::Communicator& comm)
 {
   dem::WallSums sums = dem::sum_pushes(wall);
   dem::ExactReduction all;
   all.add(sums.force);
   all.add(sums.moment);
   all.add(sums.power);
-  all.run(domain);
+  all.run(comm);
   const Nodal& f_fem = exchange.forces_up(wall);
   const Nodal& v_fem = exchange.far_field_velocities();
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "coupling/exchange.h"
-#include "dem/parallel/domain.h"
+#include "dem/parallel/reduction.h"
 
 namespace mergel::coupling {
 
@@ -21,8 +21,8 @@ struct InterfaceBalance {
 ///
 /// A lip follows its nodes without turning, so contacts on the lip leave the moment of
 /// force times lip height; everything else balances to round-off. Collective.
-/// @param domain of the rock whose wall it is
+/// @param comm of the rock whose wall it is
 InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
-                                   const Nodal& x_fem, const dem::Domain& domain);
+                                   const Nodal& x_fem, const dem::Communicator& comm);
 
 } // namespace mergel::coupling

@@ -19,7 +19,7 @@ struct Unstable : CollectiveFailure {
 };
 
 /// What one of several ranks meets where it cannot stop alone: the others would wait for it
-/// in their next message. It is kept until the ranks speak anyway (Domain::agree_on).
+/// in their next message. It is kept until the ranks speak anyway (Communicator::agree_on).
 class Fault {
 public:
   /// Run `body`, unless something is wrong already, and keep the words of a NumericalError.

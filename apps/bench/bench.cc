@@ -6,8 +6,9 @@
 #include "apps/run/ranks.h"
 #include "dem/assembly/distribute.h"
 #include "dem/io/atomic_file.h"
-#include "dem/io/history.h"
 #include "dem/io/seal.h"
+#include "dem/text.h"
+#include "dem/timer.h"
 
 #include <sys/resource.h>
 
@@ -154,7 +155,7 @@ Costs run_blocks(WorkingRock& working, std::size_t steps_a_block, std::size_t n_
   Costs c;
   for (const double ns : blocks) c.mean += ns / static_cast<double>(n_blocks);
   const double cpu_ns = 1e9 * (cpu_seconds() - cpu_before);
-  c.cpu = static_cast<double>(rock.domain.sum(static_cast<std::size_t>(cpu_ns))) /
+  c.cpu = static_cast<double>(rock.comm.global_sum(static_cast<std::size_t>(cpu_ns))) /
           (n * static_cast<double>(n_blocks));
   c.parts = rock.times;
   for (double* part : {&c.parts.motion, &c.parts.lists, &c.parts.bonds, &c.parts.contacts,
@@ -179,25 +180,27 @@ Figures measure(const WorkloadSpec& spec, std::size_t steps_a_block, std::size_t
 
   const std::size_t rebuilds = rock.list.n_builds(), broken = rock.losses.broken,
                     yielded = rock.losses.yielded;
-  const dem::Traffic before = rock.domain.traffic();
+  const dem::Ghosts::Traffic before = rock.ghosts.traffic();
+  const std::size_t reductions_before = rock.comm.n_reductions();
   f.ns = run_blocks(working, steps_a_block, n_blocks);
   f.n_steps = steps_a_block * n_blocks;
   f.n_particles = rock.particles.size();
-  const dem::Traffic after = rock.domain.traffic();
+  const dem::Ghosts::Traffic after = rock.ghosts.traffic();
   const auto a_step = [&](std::size_t now, std::size_t then) {
-    return rock.domain.greatest(static_cast<double>(now - then)) /
+    return rock.comm.global_max(static_cast<double>(now - then)) /
            static_cast<double>(f.n_steps);
   };
   f.messages = a_step(after.messages, before.messages);
   f.message_bytes = a_step(after.bytes, before.bytes);
-  f.reductions = a_step(after.reductions, before.reductions);
-  f.n_ranks = rock.domain.n_ranks();
+  f.reductions = a_step(rock.comm.n_reductions(), reductions_before);
+  f.n_ranks = rock.comm.n_ranks();
   f.n_rebuilds = rock.list.n_builds() - rebuilds;
-  f.n_broken = rock.domain.sum(rock.losses.broken - broken);
-  f.n_yielded = rock.domain.sum(rock.losses.yielded - yielded);
-  f.bytes = static_cast<double>(rock.domain.sum(static_cast<std::size_t>(bytes_of(rock))));
-  f.peak_bytes =
-      static_cast<double>(rock.domain.sum(static_cast<std::size_t>(peak_resident_bytes())));
+  f.n_broken = rock.comm.global_sum(rock.losses.broken - broken);
+  f.n_yielded = rock.comm.global_sum(rock.losses.yielded - yielded);
+  f.bytes =
+      static_cast<double>(rock.comm.global_sum(static_cast<std::size_t>(bytes_of(rock))));
+  f.peak_bytes = static_cast<double>(
+      rock.comm.global_sum(static_cast<std::size_t>(peak_resident_bytes())));
   const dem::Rock all = dem::whole(rock);
   f.n_candidates = all.contacts.pairs.size();
   f.n_contacts = count_contacts(all);

@@ -3,6 +3,7 @@
 #include "dem/assembly/distribute.h"
 #include "dem/io/state/assembly_state.h"
 #include "dem/io/state/checkpoint.h"
+#include "dem/timer.h"
 
 #include <iostream>
 
@@ -14,16 +15,16 @@ void measure_checkpoint(const WorkloadSpec& spec, const std::filesystem::path& f
   dem::share_out(w.rock, MPI_COMM_WORLD);
   dem::add_forces(w.rock, 0.0);
   for (int k = 0; k < 20; ++k) w.step();
-  const dem::Domain& domain = w.rock.domain;
+  const dem::Communicator& comm = w.rock.comm;
   const double n = static_cast<double>(w.rock.particles.size());
   for (int repeat = 0; repeat < 3; ++repeat) {
-    domain.sum(0); // together
+    comm.global_sum(0); // together
     const double start = dem::wall_clock();
-    dem::State state(domain.rank());
+    dem::State state(comm.rank());
     dem::put(state, w.rock);
     const double put = dem::wall_clock();
     dem::write_checkpoint(file, {MERGEL_VERSION, "bench", "workload", "", w.n_steps, 0.0},
-                          std::move(state), domain);
+                          std::move(state), comm);
     const double written = dem::wall_clock();
     dem::Checkpoint c = dem::read_checkpoint(file);
     const double read = dem::wall_clock();
@@ -39,11 +40,11 @@ void measure_checkpoint(const WorkloadSpec& spec, const std::filesystem::path& f
     std::cout << "checkpoint of " << n << " particles and " << n_pairs
               << " pairs: " << 1e-6 * bytes << " MB, " << bytes / n << " bytes a particle, "
               << bytes / (n + n_pairs) << " a particle and pair; write "
-              << domain.greatest(written - start) << " s (" << domain.greatest(put - start)
-              << " s to put together), read " << domain.greatest(taken - written) << " s ("
-              << domain.greatest(read - written)
+              << comm.global_max(written - start) << " s (" << comm.global_max(put - start)
+              << " s to put together), read " << comm.global_max(taken - written) << " s ("
+              << comm.global_max(read - written)
               << " s from the disk), sharing out and lists "
-              << domain.greatest(shared - taken) << " s\n";
+              << comm.global_max(shared - taken) << " s\n";
   }
 }
 

@@ -8,6 +8,7 @@
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"
 #include "dem/io/table.h"
+#include "dem/text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "apps/run/progress.h"
 #include "dem/assembly/distribute.h"
-#include "dem/io/history.h"
+#include "dem/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ std::vector<double> interface_springs(const dem::Rock& rock,
   }
   dem::ExactReduction all;
   for (dem::ForceSum& s : sums) all.add(s);
-  all.run(rock.domain);
+  all.run(rock.comm);
   coupling::Nodal k_dem, k_fem;
   for (const dem::ForceSum& s : sums) k_dem.emplace_back(s.value(), 0.0, 0.0);
   transfer.to_fem(k_dem, k_fem);
@@ -74,7 +74,7 @@ CoupledRock::CoupledRock(const RockCase& c, fem::FarField field,
   rock.list = dem::VerletList(c.material.contact.g_a, 0.45 * c.specimen.sizes.smallest());
   rock.mirrors.emplace_back();
   rock.walls.push_back(std::move(interface.wall));
-  rock.wall_bonds_yield = c.interface_bond == dem::InterfaceBond::breakable;
+  rock.wall_bonds_yield = c.interface_bond == InterfaceBond::breakable;
 }
 
 CoupledRock::CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarField field,
@@ -83,9 +83,9 @@ CoupledRock::CoupledRock(const RockCase& c, const dem::Sample& sample, fem::FarF
 {
   rock.particles = sample.packing.particles;
   rock.bonds = dem::make_bonds(rock.particles, rock.cell, sample.bonding.pairs);
-  if (c.symmetry == dem::Symmetry::mirror)
+  if (c.symmetry == Symmetry::mirror)
     dem::bond_to_mirror(rock.mirrors.front(), rock.particles, sample.bonding.limit);
-  if (c.interface_bond != dem::InterfaceBond::frictional)
+  if (c.interface_bond != InterfaceBond::frictional)
     dem::bond_to_wall(rock.walls.front(), rock.particles, sample.bonding.limit);
   dem::share_out(rock, MPI_COMM_WORLD);
   dem::add_forces(rock, 0.0); // nothing has moved yet: histories stay
@@ -114,7 +114,7 @@ void CoupledRock::even_out()
   const double spent = rock.times.total() - rock.times.exchange;
   const double since = spent - spent_before_;
   spent_before_ = spent;
-  const double most = rock.domain.greatest(since), least = rock.domain.least(since);
+  const double most = rock.comm.global_max(since), least = rock.comm.global_min(since);
   if (most > imbalance_allowed * least) dem::rebalance(rock, since);
 }
 
@@ -132,7 +132,7 @@ coupling::InterfaceBalance CoupledRock::balance()
     far_field.interface_displacement(u);
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
   }
-  return coupling::interface_balance(exchange, rock.walls.front(), x, rock.domain);
+  return coupling::interface_balance(exchange, rock.walls.front(), x, rock.comm);
 }
 
 CoupledRock::Books CoupledRock::books() const
@@ -173,7 +173,7 @@ void relax(CoupledRock& coupled, const char* stage, double ratio, std::size_t mo
     dem::check_overlaps(coupled.rock);
     now = coupled.unbalanced();
     first = std::max(first, now);
-    if (coupled.rock.domain.sum(coupled.rock.losses.broken) > 0)
+    if (coupled.rock.comm.global_sum(coupled.rock.losses.broken) > 0)
       throw Unstable(
           "a bond broke before anything was driven (" + shown(now) +
           "): the specimen is too weak for its own weight, or was made under pressure");
@@ -230,7 +230,7 @@ void equilibrate(CoupledRock& coupled, double ratio, std::size_t most_steps,
   if (coupled.settling.stage == Stage::free) {
     if (model == FarFieldModel::elastic)
       relax(coupled, "settling with the far field", ratio, most_steps, after_step);
-    coupled.rock.domain.gather_motion(coupled.rock.particles);
+    coupled.rock.partition.gather_motion(coupled.rock.particles, coupled.rock.comm);
     for (const dem::Body& b : coupled.rock.particles.body) coupled.x_0.push_back(b.x);
     coupled.settling = {Stage::done, 0};
   }

@@ -9,10 +9,10 @@
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
-#include "dem/io/history.h"
 #include "dem/io/sample_file.h"
 #include "dem/io/state/checkpoint.h"
 #include "dem/io/table.h"
+#include "dem/text.h"
 
 #include <boost/property_tree/json_parser.hpp>
 

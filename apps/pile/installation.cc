@@ -3,6 +3,7 @@
 #include "apps/run/progress.h"
 #include "apps/run/ranks.h"
 #include "dem/assembly/distribute.h"
+#include "dem/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,9 +22,9 @@ void BreakageCount::take(dem::Rock& rock)
     n_near += r <= 2.0 * D;
     n_above += x.z() > pile.z_shoulder() + D && r > pile.R;
   }
-  all += rock.domain.sum(rock.losses.breakages.size());
-  near += rock.domain.sum(n_near);
-  above += rock.domain.sum(n_above);
+  all += rock.comm.global_sum(rock.losses.breakages.size());
+  near += rock.comm.global_sum(n_near);
+  above += rock.comm.global_sum(n_above);
   rock.losses.breakages.clear();
 }
 
@@ -64,12 +65,12 @@ void Installation::count_bonds()
   const dem::Rock& rock = coupled_.rock;
   std::size_t n = 0; // each where its first grain is owned
   for (const dem::Pair& q : rock.bonds.pairs) n += rock.particles.owns(q.i);
-  n_between_ = rock.domain.sum(n);
+  n_between_ = rock.comm.global_sum(n);
   n = 0;
   for (const dem::Wall& w : rock.walls) n += w.bonds.size();
   for (const dem::Mirror& m : rock.mirrors)
     for (const dem::MirrorPair& pair : m.pairs) n += pair.bond.intact > 0.0;
-  n_bonds_ = n_between_ + rock.domain.sum(n);
+  n_bonds_ = n_between_ + rock.comm.global_sum(n);
 }
 
 void Installation::run(const std::function<void()>& after_step)
@@ -134,7 +135,7 @@ PileRecord Installation::new_record(const CoupledRock::Books& books)
   r.F_shaft = half_to_full * force_.shaft / static_cast<double>(force_.n);
   r.q_c = r.F_tip / area;
   breakage_.take(coupled_.rock);
-  r.broken = coupled_.rock.domain.sum(
+  r.broken = coupled_.rock.comm.global_sum(
       coupled_.rock.losses.broken); // none while settling: equilibrate() throws
   r.unbalanced = coupled_.unbalanced();
   r.kinetic = books.rock.kinetic;

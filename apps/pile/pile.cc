@@ -9,6 +9,8 @@
 #include "apps/run/shared_folder.h"
 #include "apps/specimen/specimen.h"
 #include "dem/io/atomic_file.h"
+#include "dem/text.h"
+#include "dem/timer.h"
 
 #include <algorithm>
 #include <iostream>
@@ -135,7 +137,7 @@ int run_pile(const JobOptions& options)
   restart.reset(); // its arrays are no longer needed
   const auto after_step = [&] {
     keeper.after_step(
-        coupled->rock.domain,
+        coupled->rock.comm,
         {coupled->n_steps, coupled->time, is_driving ? "driving" : "settling"},
         [&](dem::State& state) {
           coupled->put(state);

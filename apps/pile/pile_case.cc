@@ -1,6 +1,6 @@
 #include "apps/pile/pile_case.h"
 
-#include "dem/io/history.h"
+#include "dem/text.h"
 
 #include <cmath>
 

@@ -3,7 +3,8 @@
 #include "apps/case/words.h"
 #include "apps/run/progress.h"
 #include "dem/io/atomic_file.h"
-#include "dem/io/history.h"
+#include "dem/text.h"
+#include "dem/timer.h"
 
 #include <iostream>
 #include <sstream>
@@ -14,7 +15,7 @@ std::size_t count_debris(const dem::Rock& rock, double lip)
 {
   std::size_t n = 0;
   rock.particles.for_owned([&](dem::Index i) { n += rock.particles.body[i].x.z() > lip; });
-  return rock.domain.sum(n);
+  return rock.comm.global_sum(n);
 }
 
 namespace {

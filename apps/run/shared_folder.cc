@@ -16,7 +16,7 @@ constexpr double patience = 5.0; ///< with a slow network file system [s]
 
 void require_shared(const std::filesystem::path& folder)
 {
-  const dem::Domain all(MPI_COMM_WORLD);
+  const dem::Communicator all(MPI_COMM_WORLD);
   if (all.is_alone()) return;
   // Left over by a killed run it is removed as its resolved case would be.
   const auto path = dem::temporary_name(folder / "resolved.prm");

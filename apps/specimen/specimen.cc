@@ -3,7 +3,7 @@
 #include "apps/run/progress.h"
 #include "apps/run/ranks.h"
 #include "apps/run/same_input.h"
-#include "dem/io/history.h"
+#include "dem/text.h"
 
 #include <sstream>
 

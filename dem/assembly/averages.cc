@@ -108,9 +108,9 @@ CellAverages cell_averages(const Rock& rock)
   list(sums, s.contact_fabric);
   sums.add(s.across);
   sums.add(s.solid);
-  sums.run(rock.domain);
-  s.n_bonds = rock.domain.sum(s.n_bonds);
-  s.n_contacts = rock.domain.sum(s.n_contacts);
+  sums.run(rock.comm);
+  s.n_bonds = rock.comm.global_sum(s.n_bonds);
+  s.n_contacts = rock.comm.global_sum(s.n_contacts);
 
   CellAverages a;
   const Mat3 sigma = value(s.virial) / V;
@@ -193,7 +193,7 @@ Vec3 affine_stiffness(const Rock& rock)
     if (rock.particles.owns(q.i)) add_contact(q);
   ExactReduction sums;
   sums.add(sum);
-  sums.run(rock.domain);
+  sums.run(rock.comm);
   return sum.value() / rock.cell.volume();
 }
 

@@ -60,11 +60,11 @@ std::vector<Record> gathered(const Rock& rock, std::vector<Record> records, bool
     else if (p.owns(r.pair.j))
       second.push_back(r);
   }
-  std::vector<Record> all = rock.domain.gather(first);
+  std::vector<Record> all = rock.comm.gather(first);
   const auto ascending = [](const Record& a, const Record& b) { return a.pair < b.pair; };
   std::sort(all.begin(), all.end(), ascending);
   if (compare)
-    for (const Record& r : rock.domain.gather(second)) {
+    for (const Record& r : rock.comm.gather(second)) {
       const auto at = std::lower_bound(all.begin(), all.end(), r, ascending);
       if (at == all.end() || !(at->pair == r.pair) ||
           std::memcmp(at->history.data(), r.history.data(), sizeof r.history) != 0)
@@ -77,10 +77,10 @@ std::vector<Record> gathered(const Rock& rock, std::vector<Record> records, bool
 
 /// Records of single grains from all ranks, in the order of `key`.
 template <class Record, class Key>
-std::vector<Record> gathered_by(const Domain& domain, const std::vector<Record>& mine,
+std::vector<Record> gathered_by(const Communicator& comm, const std::vector<Record>& mine,
                                 Key&& key)
 {
-  std::vector<Record> all = domain.gather(mine);
+  std::vector<Record> all = comm.gather(mine);
   std::stable_sort(all.begin(), all.end(),
                    [&](const Record& a, const Record& b) { return key(a) < key(b); });
   return all;
@@ -131,7 +131,7 @@ void keep_own(Rock& rock)
 /// Losses and works of the whole stay on rank 0, so that their sum over ranks is theirs.
 void keep_sums_once(Rock& rock)
 {
-  if (rock.domain.rank() == 0) return;
+  if (rock.comm.rank() == 0) return;
   rock.losses = {};
   rock.work = {};
   for (Mirror& m : rock.mirrors) {
@@ -144,27 +144,30 @@ void keep_sums_once(Rock& rock)
 
 void share_out(Rock& rock, MPI_Comm comm)
 {
-  rock.domain = Domain(comm);
-  if (rock.domain.is_alone()) return;
+  rock.comm = Communicator(comm);
+  if (rock.comm.is_alone()) return;
   // A first share by number, so that each grain has one owner to give it away.
   const auto n = rock.particles.size(),
-             n_ranks = static_cast<std::size_t>(rock.domain.n_ranks()),
-             rank = static_cast<std::size_t>(rock.domain.rank());
+             n_ranks = static_cast<std::size_t>(rock.comm.n_ranks()),
+             rank = static_cast<std::size_t>(rock.comm.rank());
   std::vector<char> is_owned(n, 0);
   for (std::size_t i = rank * n / n_ranks; i < (rank + 1) * n / n_ranks; ++i)
     is_owned[i] = 1;
   rock.particles.set_ownership(std::move(is_owned), std::vector<char>(n, 0));
-  rock.domain.partition(rock.particles, {});
+  rock.partition.assign(rock.particles, {}, rock.comm);
+  rock.ghosts.clear();
   keep_own(rock);
   keep_sums_once(rock);
 }
 
 Rock whole(Rock& rock, bool compare)
 {
-  if (rock.domain.is_alone()) return rock;
-  rock.domain.gather_motion(rock.particles);
+  if (rock.comm.is_alone()) return rock;
+  rock.partition.gather_motion(rock.particles, rock.comm);
   Rock all = rock;
-  all.domain = Domain();
+  all.comm = Communicator();
+  all.partition = Partition();
+  all.ghosts = Ghosts();
 
   Particles& p = all.particles;
   std::vector<GrainRecord> grains;
@@ -172,7 +175,7 @@ Rock whole(Rock& rock, bool compare)
     const Vec3 &f = p.load[i].f, &t = p.load[i].t;
     grains.push_back({i, p.n_bonds[i], {f.x(), f.y(), f.z(), t.x(), t.y(), t.z()}});
   });
-  for (const GrainRecord& g : rock.domain.gather(grains)) {
+  for (const GrainRecord& g : rock.comm.gather(grains)) {
     p.n_bonds[g.particle] = g.n_bonds;
     p.load[g.particle].f = {g.load[0], g.load[1], g.load[2]};
     p.load[g.particle].t = {g.load[3], g.load[4], g.load[5]};
@@ -188,32 +191,32 @@ Rock whole(Rock& rock, bool compare)
   ExactReduction sums;
   const auto by_particle = [](const auto& r) { return r.particle; };
   for (std::size_t k = 0; k < rock.mirrors.size(); ++k) {
-    all.mirrors[k].pairs = gathered_by(rock.domain, rock.mirrors[k].pairs, by_particle);
+    all.mirrors[k].pairs = gathered_by(rock.comm, rock.mirrors[k].pairs, by_particle);
     sums.add(all.mirrors[k].energy);
     sums.add(all.mirrors[k].force);
   }
   for (std::size_t k = 0; k < rock.planes.size(); ++k)
     all.planes[k].contacts.contacts() =
-        gathered_by(rock.domain, rock.planes[k].contacts.contacts(), key_of);
+        gathered_by(rock.comm, rock.planes[k].contacts.contacts(), key_of);
   for (std::size_t k = 0; k < rock.piles.size(); ++k)
     all.piles[k].contacts.contacts() =
-        gathered_by(rock.domain, rock.piles[k].contacts.contacts(), key_of);
+        gathered_by(rock.comm, rock.piles[k].contacts.contacts(), key_of);
   for (std::size_t k = 0; k < rock.walls.size(); ++k) {
     Wall& w = all.walls[k];
-    w.contacts = gathered_by(rock.domain, rock.walls[k].contacts, key_of);
+    w.contacts = gathered_by(rock.comm, rock.walls[k].contacts, key_of);
     w.listed.assign(w.contacts.size(), {});
-    w.bonds = gathered_by(rock.domain, rock.walls[k].bonds, by_particle);
+    w.bonds = gathered_by(rock.comm, rock.walls[k].bonds, by_particle);
   }
   for (EnergySum* s : {&all.losses.slip, &all.losses.plastic, &all.losses.residue,
                        &all.work.gravity, &all.work.damping, &all.work.lock})
     sums.add(*s);
-  sums.run(rock.domain);
-  all.losses.broken = rock.domain.sum(rock.losses.broken);
-  all.losses.yielded = rock.domain.sum(rock.losses.yielded);
+  sums.run(rock.comm);
+  all.losses.broken = rock.comm.global_sum(rock.losses.broken);
+  all.losses.yielded = rock.comm.global_sum(rock.losses.yielded);
   for (std::size_t k = 0; k < n_break_modes; ++k)
-    all.losses.broken_by[k] = rock.domain.sum(rock.losses.broken_by[k]);
+    all.losses.broken_by[k] = rock.comm.global_sum(rock.losses.broken_by[k]);
   all.losses.virial = rock.virial;
-  all.losses.breakages = gathered_by(rock.domain, rock.losses.breakages,
+  all.losses.breakages = gathered_by(rock.comm, rock.losses.breakages,
                                      [](const Breakage& b) { return b.pair; });
 
   const std::size_t n = p.size();
@@ -224,7 +227,7 @@ Rock whole(Rock& rock, bool compare)
 
 void rebalance(Rock& rock, double seconds, bool compare)
 {
-  if (rock.domain.is_alone()) return;
+  if (rock.comm.is_alone()) return;
   Particles& p = rock.particles;
   // A grain's share of the time goes with the pairs that it has a part in.
   std::vector<double> pairs(p.size(), 1.0);
@@ -239,7 +242,8 @@ void rebalance(Rock& rock, double seconds, bool compare)
   p.for_owned([&](Index i) { weight.push_back(seconds * pairs[i] / all_pairs); });
 
   Rock all = whole(rock, compare);
-  rock.domain.partition(p, weight);
+  rock.partition.assign(p, weight, rock.comm);
+  rock.ghosts.clear();
   // Only what migrates is replaced: others hold references to walls and piles.
   std::vector<char> is_owned(p.size(), 0);
   p.for_owned([&](Index i) { is_owned[i] = 1; });

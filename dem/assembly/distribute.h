@@ -17,7 +17,7 @@ inline constexpr bool compares_histories = true;
 void share_out(Rock& rock, MPI_Comm comm);
 
 /// The whole rock on every rank: all motions, bonds, contacts and wall contacts with their
-/// histories, and the sums of losses and works. Its domain is one rank that owns everything.
+/// histories, and the sums of losses and works. Its comm is one rank that owns everything.
 /// Collective.
 ///
 /// @param compare the histories that two ranks hold of a pair across their border are

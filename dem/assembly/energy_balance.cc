@@ -21,7 +21,7 @@ EnergyBook energy_book(const Rock& rock, double dt)
        {&kinetic, &pairs.bonds, &pairs.contacts, &walls, &mirror, &work.gravity,
         &work.damping, &work.lock, &losses.slip, &losses.plastic, &losses.residue})
     sums.add(*s);
-  sums.run(rock.domain);
+  sums.run(rock.comm);
   e.kinetic = kinetic.value();
   e.bonds = pairs.bonds.value();
   e.contacts = pairs.contacts.value();

@@ -1,7 +1,7 @@
 #include "dem/assembly/step.h"
+#include "dem/timer.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace mergel::dem {
 
@@ -10,11 +10,11 @@ namespace {
 /// Those of others that our pairs reach become our ghosts.
 void choose_ghosts(Rock& rock)
 {
-  if (rock.domain.is_alone()) return;
+  if (rock.comm.is_alone()) return;
   std::vector<char> is_needed(rock.particles.size(), 0);
   for (const auto* pairs : {&rock.bonds.pairs, &rock.contacts.pairs})
     for (const Pair& q : *pairs) is_needed[q.i] = is_needed[q.j] = 1;
-  rock.domain.choose_ghosts(rock.particles, is_needed);
+  rock.ghosts.choose(rock.particles, is_needed, rock.partition, rock.comm);
 }
 
 /// What acts on walls and on a driven cell, from all ranks; and, in the same message, whether
@@ -22,7 +22,7 @@ void choose_ghosts(Rock& rock)
 void sum_over_ranks(Rock& rock)
 {
   if (rock.cell.is_driven) rock.virial = rock.losses.virial;
-  if (rock.domain.is_alone()) return rock.domain.agree_on(rock.fault);
+  if (rock.comm.is_alone()) return rock.comm.agree_on(rock.fault);
   ExactReduction sums;
   for (PlaneWall& w : rock.planes) sums.add(w.force);
   for (Wall& w : rock.walls)
@@ -36,15 +36,15 @@ void sum_over_ranks(Rock& rock)
   ForceSum n_faults;
   if (rock.fault.is_met()) n_faults.add(1.0);
   sums.add(n_faults);
-  sums.run(rock.domain);
-  if (n_faults.value() > 0.0) rock.domain.agree_on(rock.fault);
+  sums.run(rock.comm);
+  if (n_faults.value() > 0.0) rock.comm.agree_on(rock.fault);
 }
 
 /// Half of the skin belongs to the particles, half to the walls. The same on all ranks.
 bool lists_are_stale(Rock& rock)
 {
   if (rock.list.may_be_stale(rock.particles) &&
-      rock.list.is_stale(rock.domain.greatest(rock.list.travel(rock.particles))))
+      rock.list.is_stale(rock.comm.global_max(rock.list.travel(rock.particles))))
     return true;
   const double allowed = rock.list.wall_allowance();
   for (const PlaneWall& w : rock.planes)
@@ -58,15 +58,9 @@ bool lists_are_stale(Rock& rock)
 
 } // namespace
 
-double wall_clock()
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
 void rebuild_lists(Rock& rock)
 {
-  rock.domain.gather_motion(rock.particles);
+  rock.partition.gather_motion(rock.particles, rock.comm);
   const Particles& p = rock.particles;
   const double skin = rock.list.skin();
   rock.list.rebuild(p, rock.cell, rock.bonds, rock.contacts);
@@ -117,7 +111,7 @@ void add_forces(Rock& rock, double dt)
     part += to - from;
     from = to;
   };
-  rock.domain.update_ghosts(p);
+  rock.ghosts.update(p, rock.comm);
   lap(rock.times.exchange);
   for (Wall& w : rock.walls) update_normals(w);
   if (lists_are_stale(rock)) rebuild_lists(rock); // walls are the same on all ranks
@@ -139,7 +133,7 @@ double stable_time_step(const Rock& rock, double safety)
     add_surface_stiffness(s, w.material, p, w.contacts);
   for (const Wall& w : rock.walls) add_wall_stiffness(s, rock.material.bond, p, w);
   for (const PileWall& w : rock.piles) add_surface_stiffness(s, w.material, p, w.contacts);
-  return rock.domain.least(time_step(s, p, safety, rock.motion));
+  return rock.comm.global_min(time_step(s, p, safety, rock.motion));
 }
 
 double unbalanced_ratio(const Rock& rock)
@@ -150,7 +144,7 @@ double unbalanced_ratio(const Rock& rock)
   ExactReduction sums;
   sums.add(resultants);
   sums.add(forces);
-  sums.run(rock.domain);
+  sums.run(rock.comm);
   return forces.value() > 0.0 ? resultants.value() / forces.value() : 0.0;
 }
 
@@ -173,7 +167,7 @@ void check_overlaps(const Rock& rock)
     for (const Pair& q : rock.bonds.pairs) check(q);
     for (const Pair& q : rock.contacts.pairs) check(q);
   });
-  rock.domain.agree_on(fault);
+  rock.comm.agree_on(fault);
 }
 
 WallPower wall_power(const Rock& rock)

@@ -3,8 +3,10 @@
 
 #include "dem/assembly/timestep.h"
 #include "dem/pairs/neighbours.h"
-#include "dem/parallel/domain.h"
+#include "dem/parallel/ghosts.h"
+#include "dem/parallel/reduction.h"
 #include "dem/particles/integrate.h"
+#include "dem/timer.h"
 #include "dem/walls/mirror.h"
 #include "dem/walls/surfaces.h"
 #include "dem/walls/triangulated.h"
@@ -14,19 +16,6 @@
 #include <optional>
 
 namespace mergel::dem {
-
-/// What holds the rock at the cut of a half model.
-enum class Symmetry {
-  mirror, ///< each particle near the cut is bonded to its image: the plane carries tension
-  wall    ///< images act by their contact only
-};
-
-/// Walls of the interface and what bonds the rock to them.
-enum class InterfaceBond {
-  bonded,    ///< does not break
-  breakable, ///< follows the bond law
-  frictional ///< contact only
-};
 
 /// A rigid plane and the spheres at it.
 struct PlaneWall {
@@ -44,15 +33,6 @@ struct PileWall {
   PileLoad load; ///< in the last step, of all ranks
 };
 
-/// Wall-clock time spent in the parts of a step [s]; for the closing summary, never for
-/// physics.
-struct StepTimes {
-  double motion = 0.0, lists = 0.0, bonds = 0.0, contacts = 0.0, walls = 0.0,
-         exchange = 0.0; ///< with other ranks
-
-  double total() const { return motion + lists + bonds + contacts + walls + exchange; }
-};
-
 /// A bonded rock with everything that acts on it. What a run does not have is an empty
 /// list.
 ///
@@ -60,7 +40,9 @@ struct StepTimes {
 /// own (distribute.h). Losses and works are of owned grains, but for wall_work, pile_work and
 /// cell_work, which every rank knows in full.
 struct Rock {
-  Domain domain;
+  Communicator comm;
+  Partition partition;
+  Ghosts ghosts;
   Particles particles;
   PeriodicCell cell;
   Bonds bonds;
@@ -126,9 +108,6 @@ WallPower wall_power(const Rock& rock);
 /// [W]; 0 of any other.
 double cell_power(const Rock& rock);
 
-/// Seconds since any instant.
-double wall_clock();
-
 template <class MoveWalls>
 void advance(Rock& rock, double dt_before, double dt, MoveWalls&& move_walls)
 {
@@ -139,8 +118,8 @@ void advance(Rock& rock, double dt_before, double dt, MoveWalls&& move_walls)
       [&] { most = kick_and_drift(rock.particles, rock.motion, dt_kick, dt, rock.work); });
   const double moved = wall_clock();
   rock.times.motion += moved - start;
-  const double most_of_all = rock.domain.greatest(most);
-  if (std::isinf(most_of_all)) rock.domain.agree_on(rock.fault);
+  const double most_of_all = rock.comm.global_max(most);
+  if (std::isinf(most_of_all)) rock.comm.agree_on(rock.fault);
   rock.list.add_motion(most_of_all);
   rock.times.exchange += wall_clock() - moved;
   // Work of the forces at t^n on the mean motion of the walls around t^n.

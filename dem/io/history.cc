@@ -3,10 +3,9 @@
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/seal.h"
+#include "dem/text.h"
 
-#include <array>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <system_error>
 
@@ -14,13 +13,6 @@
 #include <unistd.h>
 
 namespace mergel::dem {
-
-std::string shortest(double value)
-{
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
 
 namespace {
 

@@ -48,7 +48,4 @@ private:
 /// @throws InputError, naming the file, when it does not begin as it did at the mark
 void check_history(const std::filesystem::path& file, const HistoryMark& mark);
 
-/// The shortest decimal text that reads back to the same bits.
-std::string shortest(double value);
-
 } // namespace mergel::dem

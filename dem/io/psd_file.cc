@@ -1,8 +1,8 @@
 #include "dem/io/psd_file.h"
 
 #include "dem/error.h"
-#include "dem/io/history.h"
 #include "dem/io/table.h"
+#include "dem/text.h"
 
 #include <cmath>
 

@@ -60,10 +60,10 @@ std::string missing(const fs::path& path, const FileMark& mark)
 
 } // namespace
 
-Writer this_writer(const Domain& domain)
+Writer this_writer(const Communicator& comm)
 {
   Writer w;
-  w.rank = domain.rank();
+  w.rank = comm.rank();
   ::gethostname(w.host, sizeof w.host - 1);
   return w;
 }

@@ -5,7 +5,7 @@
 /// or is shown as it was before, is told too.
 #pragma once
 
-#include "dem/parallel/domain.h"
+#include "dem/parallel/communicator.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -20,7 +20,7 @@ struct Writer {
   int rank = 0;
   char host[64] = {};
 };
-Writer this_writer(const Domain& domain);
+Writer this_writer(const Communicator& comm);
 std::string name_of(const Writer& w); ///< "rank 3 on node12"
 
 /// Number that only the file's maker knows, behind the end of the file until it is

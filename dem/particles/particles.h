@@ -41,7 +41,7 @@ struct IndexRange {
 ///
 /// A rank owns some of them and moves these. Of the others it keeps the ghosts up to date,
 /// those that act on grains of its own; the rest of its arrays is as old as the last list
-/// (domain.h).
+/// (dem/parallel/partition.h).
 struct Particles {
   std::vector<Body> body;
   std::vector<Load> load;        ///< whole for owned grains, in part for ghosts

@@ -1,8 +1,8 @@
 #include "dem/specimen/compaction.h"
 
 #include "dem/assembly/distribute.h"
-#include "dem/io/history.h"
 #include "dem/specimen/growth.h"
+#include "dem/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +94,7 @@ public:
   /// The grains at rest. A periodic box takes the change of their sizes over. Collective.
   Packing finish()
   {
-    rock_.domain.agree_on(rock_.fault); // of the last step
+    rock_.comm.agree_on(rock_.fault); // of the last step
     Packing packing;
     packing.pressure = pressure();
     packing.overlap = largest_overlap();
@@ -144,7 +144,7 @@ private:
       const double d = (j.x + rock_.cell.offset(q.shift) - i.x).norm();
       most = std::max(most, (reach - d) / reach);
     }
-    return rock_.domain.greatest(most);
+    return rock_.comm.global_max(most);
   }
 
   const SpecimenSpec& spec_;
@@ -184,7 +184,7 @@ double mean_pressure(const Rock& rock, double volume)
     }
   ExactReduction all;
   all.add(sum);
-  all.run(rock.domain);
+  all.run(rock.comm);
   return sum.value() / (3.0 * volume);
 }
 

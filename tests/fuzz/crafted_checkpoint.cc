@@ -65,7 +65,7 @@ void write_good_checkpoint(const std::filesystem::path& file)
   dem::State state(0);
   dem::put(state, rock);
   dem::write_checkpoint(file, {"0.1.0", "pile", "driving", "set a = 1\n", 100, 1e-4},
-                        std::move(state), dem::Domain());
+                        std::move(state), dem::Communicator());
 }
 
 void craft_checkpoint(const std::filesystem::path& file, const std::string& bytes)

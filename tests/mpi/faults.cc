@@ -111,7 +111,7 @@ int main(int argc, char** argv)
     commit(argc > 1 ? argv[1] : "", w.rock);
     const std::string words = found(w);
     if (words.empty() || !is_said_by_all(words)) code = 1;
-    if (w.rock.domain.rank() == 0 || code != 0) std::printf("%s\n", words.c_str());
+    if (w.rock.comm.rank() == 0 || code != 0) std::printf("%s\n", words.c_str());
   } catch (const std::exception& e) { // on one rank alone, or another kind
     std::fprintf(stderr, "mpi_faults: %s\n", e.what());
     MPI_Abort(MPI_COMM_WORLD, 1);

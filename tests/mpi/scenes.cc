@@ -138,7 +138,7 @@ void report(apps::WorkingRock& w, int step)
   const double unbalanced = unbalanced_ratio(w.rock);
   const CellAverages c = w.rock.cell.is_driven ? cell_averages(w.rock) : CellAverages{};
   const Rock all = whole(w.rock);
-  if (w.rock.domain.rank() != 0) return;
+  if (w.rock.comm.rank() != 0) return;
   std::printf(
       "%4d %016" PRIx64 " %016" PRIx64 " broken %zu yielded %zu dt %a unbalanced %a "
       "kinetic %a bonds %a contacts %a plastic %a residue %a slip %a damping %a "
@@ -157,13 +157,13 @@ struct Options {
 
 void save(const apps::WorkingRock& w, const Servo& servo, const std::string& file)
 {
-  State state(w.rock.domain.rank());
+  State state(w.rock.comm.rank());
   put(state, w.rock);
   state.add_common<double>("steps", {w.dt, w.dt_before});
   const Vec3 &I = servo.integral, &M = servo.stiffness;
   state.add_common<double>("servo", {I.x(), I.y(), I.z(), M.x(), M.y(), M.z()}, 6);
   write_checkpoint(file, {"test", "scene", "", "", w.n_steps, 0.0}, std::move(state),
-                   w.rock.domain);
+                   w.rock.comm);
 }
 
 void restore(apps::WorkingRock& w, Servo& servo, const std::string& file)
@@ -196,7 +196,7 @@ void run(const std::string& name, const Options& o)
   for (int step = static_cast<int>(w.n_steps - n_before) + 1; step <= o.stop; ++step) {
     if (rebuilds && step % 7 == 0) w.rock.list.invalidate();
     if (rebalances && step % 50 == 0)
-      rebalance(w.rock, 1.0 + (step / 50 + w.rock.domain.rank()) % 3, true);
+      rebalance(w.rock, 1.0 + (step / 50 + w.rock.comm.rank()) % 3, true);
     if (w.rock.cell.is_driven) squeeze(w, servo, step);
     w.step();
     if (step % 40 == 0) report(w, step);
@@ -206,7 +206,7 @@ void run(const std::string& name, const Options& o)
     save(w, servo, o.checkpoint);
     return;
   }
-  const std::size_t broken = w.rock.domain.sum(w.rock.losses.broken);
+  const std::size_t broken = w.rock.comm.global_sum(w.rock.losses.broken);
   if (broken < 20)
     throw std::runtime_error("only " + std::to_string(broken) + " bonds broke");
 }

@@ -102,11 +102,12 @@ void put(State& state, const Rock& rock)
   state.add_common("cell", std::move(cell), 6);
   state.add_common<std::uint64_t>("cell_is_driven", {rock.cell.is_driven ? 1u : 0u});
   put_walls(state, rock);
-  state.add_common<std::uint64_t>(
-      "bonds_broken_and_yielded",
-      {rock.domain.sum(rock.losses.broken), rock.domain.sum(rock.losses.yielded)});
+  state.add_common<std::uint64_t>("bonds_broken_and_yielded",
+                                  {rock.comm.global_sum(rock.losses.broken),
+                                   rock.comm.global_sum(rock.losses.yielded)});
   std::vector<std::uint64_t> broken_by;
-  for (const std::size_t k : rock.losses.broken_by) broken_by.push_back(rock.domain.sum(k));
+  for (const std::size_t k : rock.losses.broken_by)
+    broken_by.push_back(rock.comm.global_sum(k));
   state.add_common("bonds_broken_by_mode", std::move(broken_by));
 
   Rock copy = copy_of_sums(rock);
@@ -118,7 +119,7 @@ void put(State& state, const Rock& rock)
     all.add(m.energy);
     all.add(m.force);
   }
-  all.run(rock.domain);
+  all.run(rock.comm);
   put_sums(state, "sums_over_grains", sums_of_ranks(copy));
   put_sums(state, "sums_on_walls", sums_of_all(copy));
 }
@@ -126,7 +127,7 @@ void put(State& state, const Rock& rock)
 void take(State& state, Rock& rock)
 {
   check_walls(state, rock);
-  rock.domain = Domain();
+  rock.comm = Communicator();
   rock.particles = take_grains(state);
   state.forget("grain");
   const std::size_t n = rock.particles.size();

@@ -39,7 +39,7 @@ bool is_later(const fs::path& a, const fs::path& b)
 }
 
 void write_checkpoint(const fs::path& file, const CheckpointLabel& label, State mine,
-                      const Domain& domain)
+                      const Communicator& comm)
 {
   mine.add_text("label_program", label.program);
   mine.add_text("label_job", label.job);
@@ -47,7 +47,7 @@ void write_checkpoint(const fs::path& file, const CheckpointLabel& label, State 
   mine.add_text("label_case", label.case_text);
   mine.add_common<std::uint64_t>("label_step", {label.step});
   mine.add_common<double>("label_time", {label.time});
-  write_state(file, kind, version, mine, domain);
+  write_state(file, kind, version, mine, comm);
 }
 
 Checkpoint read_checkpoint(const fs::path& file)

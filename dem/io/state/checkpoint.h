@@ -30,7 +30,7 @@ bool is_later(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Write `mine`, each rank its part, and the label; see write_state().
 void write_checkpoint(const std::filesystem::path& file, const CheckpointLabel& label,
-                      State mine, const Domain& domain);
+                      State mine, const Communicator& comm);
 
 /// Needs no MPI. @throws InputError as read_state()
 Checkpoint read_checkpoint(const std::filesystem::path& file);

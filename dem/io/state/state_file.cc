@@ -33,16 +33,16 @@ Seal seal_of(const std::string& kind)
 }
 
 /// Every rank calls it with what went wrong there, "" for nothing; all throw the first.
-void agree(const Domain& domain, const std::string& wrong)
+void agree(const Communicator& comm, const std::string& wrong)
 {
-  const std::vector<char> all = domain.gather(std::vector<char>(
+  const std::vector<char> all = comm.gather(std::vector<char>(
       wrong.c_str(), wrong.c_str() + wrong.size() + (wrong.empty() ? 0 : 1)));
   if (!all.empty()) throw CollectiveFailure(all.data());
 }
 
 /// Call f on this rank; all ranks throw when it failed on one.
 template <class F>
-void all_or_none(const Domain& domain, F&& f)
+void all_or_none(const Communicator& comm, F&& f)
 {
   std::string wrong;
   try {
@@ -51,7 +51,7 @@ void all_or_none(const Domain& domain, F&& f)
     wrong = e.what();
     if (wrong.empty()) wrong = "unknown failure";
   }
-  agree(domain, wrong);
+  agree(comm, wrong);
 }
 
 constexpr std::size_t room_for_descriptions = 65536;
@@ -162,9 +162,9 @@ const StateArray& State::find(const std::string& name) const
 }
 
 void write_state(const fs::path& file, const std::string& kind, int version,
-                 const State& mine, const Domain& domain)
+                 const State& mine, const Communicator& comm)
 {
-  all_or_none(domain, [&] {
+  all_or_none(comm, [&] {
     for (const auto& [name, array] : mine.arrays())
       if (const auto* values = std::get_if<std::vector<double>>(&array.values);
           values && !is_finite(*values))
@@ -175,24 +175,24 @@ void write_state(const fs::path& file, const std::string& kind, int version,
   const std::size_t n = mine.arrays().size();
   std::vector<std::uint64_t> my_rows;
   for (const auto& [name, array] : mine.arrays()) my_rows.push_back(array.rows());
-  const std::vector<std::uint64_t> rows_by_rank = domain.gather(my_rows);
+  const std::vector<std::uint64_t> rows_by_rank = comm.gather(my_rows);
   std::vector<std::uint64_t> rows(n, 0), before(n, 0);
   std::size_t bytes = room_for_descriptions;
   for (std::size_t k = 0; k < rows_by_rank.size(); ++k) {
     rows[k % n] += rows_by_rank[k];
-    if (k / n < static_cast<std::size_t>(domain.rank())) before[k % n] += rows_by_rank[k];
+    if (k / n < static_cast<std::size_t>(comm.rank())) before[k % n] += rows_by_rank[k];
   }
   std::size_t place = 0;
   for (const auto& [name, array] : mine.arrays())
     bytes += rows[place++] * array.columns *
              std::visit([](const auto& v) { return sizeof(v[0]); }, array.values);
 
-  const Writer me = this_writer(domain);
+  const Writer me = this_writer(comm);
   const auto write = [&](const fs::path& path) {
     std::vector<std::uint64_t> begin;
     std::vector<FileMark> mark;
-    all_or_none(domain, [&] {
-      if (domain.rank() != 0) return;
+    all_or_none(comm, [&] {
+      if (comm.rank() != 0) return;
       fs::remove(path); // of a run that was killed
       SharedFile(path, file, SharedFile::Way::make)
           .require_room(bytes, SharedFile::Size::grows);
@@ -200,13 +200,13 @@ void write_state(const fs::path& file, const std::string& kind, int version,
       // HDF5 begins anew and gives the room back: take it again before the rows come.
       SharedFile made(path, file, SharedFile::Way::find);
       made.require_room(bytes, SharedFile::Size::stays);
-      if (!domain.is_alone()) mark.push_back(made.mark(me));
+      if (!comm.is_alone()) mark.push_back(made.mark(me));
     });
-    begin = domain.gather(begin);
-    mark = domain.gather(mark);
+    begin = comm.gather(begin);
+    mark = comm.gather(mark);
     std::vector<Piece> pieces;
-    all_or_none(domain, [&] {
-      if (domain.rank() != 0) require_mark(path, file, mark.front(), me, patience);
+    all_or_none(comm, [&] {
+      if (comm.rank() != 0) require_mark(path, file, mark.front(), me, patience);
       SharedFile out(path, file, SharedFile::Way::find);
       std::size_t k = 0;
       for (const auto& [name, array] : mine.arrays()) {
@@ -218,25 +218,25 @@ void write_state(const fs::path& file, const std::string& kind, int version,
                                           size * v.size()};
               const std::uint64_t at = begin[k] + first * size;
               out.write(part, at);
-              if (!part.empty() && !domain.is_alone())
+              if (!part.empty() && !comm.is_alone())
                 pieces.push_back({at, part.size(), sum_of_words(part), me});
             },
             array.values);
         ++k;
       }
-      if (!domain.is_alone()) out.flush();
+      if (!comm.is_alone()) out.flush();
     });
-    pieces = domain.gather(pieces);
-    all_or_none(domain, [&] {
-      if (domain.rank() != 0) return;
+    pieces = comm.gather(pieces);
+    all_or_none(comm, [&] {
+      if (comm.rank() != 0) return;
       if (!mark.empty())
         SharedFile(path, file, SharedFile::Way::find).take_off(mark.front());
       seal(path, read_back(path, file, pieces), seal_of(kind));
     });
   };
-  if (domain.rank() != 0) {
+  if (comm.rank() != 0) {
     write(temporary_name(file));
-    agree(domain, "");
+    agree(comm, "");
     return;
   }
   std::string wrong;
@@ -247,7 +247,7 @@ void write_state(const fs::path& file, const std::string& kind, int version,
   } catch (const std::exception& e) {
     wrong = e.what();
   }
-  agree(domain, wrong);
+  agree(comm, wrong);
 }
 
 State read_state(const fs::path& path, const std::string& kind, int version,

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "dem/collective_failure.h"
-#include "dem/parallel/domain.h"
+#include "dem/parallel/communicator.h"
 
 #include <filesystem>
 #include <map>
@@ -105,7 +105,7 @@ private:
 /// @throws CollectiveFailure naming the file and the system's reason, or the rank that does
 ///   not see it, or whose rows are lost; an earlier `file` stands
 void write_state(const std::filesystem::path& file, const std::string& kind, int version,
-                 const State& mine, const Domain& domain);
+                 const State& mine, const Communicator& comm);
 
 /// @param kind what the file must be, for example "checkpoint"
 /// @param sum if not null, becomes the sum that seals the file

@@ -57,7 +57,7 @@ CheckpointLabel label()
 
 void write(const fs::path& file)
 {
-  write_checkpoint(file, label(), kept(rock_with_everything()), Domain());
+  write_checkpoint(file, label(), kept(rock_with_everything()), Communicator());
 }
 
 std::string refusal(const fs::path& file)
@@ -85,7 +85,7 @@ TEST_CASE("a rock goes on from a checkpoint with the same bits", "[unit][dem]")
   Rock rock = rock_with_everything();
   for (int k = 0; k < 100; ++k) step(rock);
   const fs::path file = folder.path / checkpoint_name(100);
-  write_checkpoint(file, label(), kept(rock), Domain());
+  write_checkpoint(file, label(), kept(rock), Communicator());
   for (int k = 0; k < 100; ++k) step(rock);
 
   Checkpoint c = read_checkpoint(file);
@@ -125,9 +125,9 @@ TEST_CASE("what is no checkpoint is refused with the reason", "[unit][dem]")
   CHECK(refusal(file).find("is no checkpoint, or is truncated") == 0);
   write_sample(file, Sample{});
   CHECK(refusal(file).find("is no checkpoint, or is truncated") == 0);
-  write_state(file, "checkpoint", 2, State(0), Domain());
+  write_state(file, "checkpoint", 2, State(0), Communicator());
   CHECK(refusal(file).find("has checkpoint format 2, newer than the 1 that") == 0);
-  write_state(file, "checkpoint", 1, State(0), Domain());
+  write_state(file, "checkpoint", 1, State(0), Communicator());
   CHECK(refusal(file).find("does not fit this program or case: its array label_") == 0);
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("a sealed checkpoint that holds what is not a number is damaged, not a
   const fs::path file = folder.path / checkpoint_name(1);
   CheckpointLabel rare = label();
   rare.time = 0.12345678; // found once in the file
-  write_checkpoint(file, rare, kept(rock_with_everything()), Domain());
+  write_checkpoint(file, rare, kept(rock_with_everything()), Communicator());
   const Seal seal{"checkpoint", "64-bit sum", "", sum_of_words};
   std::string bytes = unsealed(file, seal);
   const auto in_bytes = [](double value) {
@@ -235,7 +235,8 @@ TEST_CASE("a state that is not a number is never written", "[unit][dem]")
   write(file);
   Rock rock = rock_with_everything();
   rock.particles.body[2].v.x() = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_AS(write_checkpoint(file, label(), kept(rock), Domain()), CollectiveFailure);
+  CHECK_THROWS_AS(write_checkpoint(file, label(), kept(rock), Communicator()),
+                  CollectiveFailure);
   CHECK(refusal(file) == "read"); // the one before
 }
 
@@ -254,7 +255,8 @@ TEST_CASE("the newest checkpoint that can be read is found, and the newer ones a
   CHECK(found.refused.front().reason.find("is no checkpoint, or is") == 0);
   CHECK(found.refused.front().is_damaged);
   // A whole one that another program wrote is told from a damaged one.
-  write_state(folder.path / checkpoint_name(20000), "checkpoint", 2, State(0), Domain());
+  write_state(folder.path / checkpoint_name(20000), "checkpoint", 2, State(0),
+              Communicator());
   CHECK_FALSE(newest_checkpoint(folder.path).refused.front().is_damaged);
 }
 

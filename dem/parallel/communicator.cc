@@ -1,0 +1,68 @@
+#include "dem/parallel/communicator.h"
+
+#include <cstdint>
+#include <numeric>
+#include <string>
+
+namespace mergel::dem {
+
+Communicator::Communicator(MPI_Comm comm) : comm_(comm)
+{
+  MPI_Comm_rank(comm, &rank_);
+  MPI_Comm_size(comm, &n_ranks_);
+}
+
+double Communicator::global_min(double value) const
+{
+  if (is_alone()) return value;
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MIN, comm_);
+  ++n_reductions_;
+  return value;
+}
+
+double Communicator::global_max(double value) const
+{
+  return -global_min(-value);
+}
+
+std::size_t Communicator::global_sum(std::size_t count) const
+{
+  if (is_alone()) return count;
+  std::uint64_t n = count;
+  MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_UINT64_T, MPI_SUM, comm_);
+  ++n_reductions_;
+  return n;
+}
+
+void Communicator::agree_on(const Fault& fault) const
+{
+  std::string words = fault.words();
+  if (!is_alone()) {
+    const auto first = static_cast<int>(global_min(fault.is_met() ? rank_ : n_ranks_));
+    if (first == n_ranks_) return;
+    std::uint64_t length = words.size();
+    MPI_Bcast(&length, 1, MPI_UINT64_T, first, comm_);
+    words.resize(length);
+    MPI_Bcast(words.data(), static_cast<int>(length), MPI_CHAR, first, comm_);
+  }
+  if (!words.empty()) throw Unstable(words);
+}
+
+void Communicator::gather_bytes(const void* mine, std::size_t n, std::size_t size,
+                                const std::function<void*(std::size_t)>& room) const
+{
+  const auto n_ranks = static_cast<std::size_t>(n_ranks_);
+  std::vector<int> counts(n_ranks), at(n_ranks);
+  const int own = static_cast<int>(n);
+  MPI_Allgather(&own, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
+  std::exclusive_scan(counts.begin(), counts.end(), at.begin(), 0);
+  MPI_Datatype record;
+  MPI_Type_contiguous(static_cast<int>(size), MPI_BYTE, &record);
+  MPI_Type_commit(&record);
+  MPI_Allgatherv(mine, own, record,
+                 room(static_cast<std::size_t>(at.back() + counts.back())), counts.data(),
+                 at.data(), record, comm_);
+  MPI_Type_free(&record);
+}
+
+} // namespace mergel::dem

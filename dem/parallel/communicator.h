@@ -1,0 +1,59 @@
+/// The ranks that share an assembly, and the global values that they agree on.
+#pragma once
+
+#include "dem/collective_failure.h"
+
+#include <cstddef>
+#include <functional>
+#include <mpi.h>
+#include <vector>
+
+namespace mergel::dem {
+
+class Communicator {
+public:
+  /// One rank that owns everything; MPI need not be up.
+  Communicator() = default;
+  /// @param comm must outlive the communicator
+  explicit Communicator(MPI_Comm comm);
+
+  int rank() const { return rank_; }
+  int n_ranks() const { return n_ranks_; }
+  bool is_alone() const { return n_ranks_ == 1; }
+  /// MPI_COMM_NULL of one rank without MPI.
+  MPI_Comm mpi() const { return comm_; }
+
+  double global_min(double value) const;           ///< collective
+  double global_max(double value) const;           ///< collective
+  std::size_t global_sum(std::size_t count) const; ///< collective
+  /// Reductions since the start: sums, minima and flags.
+  std::size_t n_reductions() const { return n_reductions_; }
+
+  /// End the run in order when a rank has found a fault; collective.
+  /// @throws Unstable on all ranks, with the message of the lowest rank that found one
+  void agree_on(const Fault& fault) const;
+
+  /// Records of all ranks, in the order of ranks; collective.
+  template <class Record>
+  std::vector<Record> gather(const std::vector<Record>& mine) const
+  {
+    if (is_alone()) return mine;
+    std::vector<Record> all;
+    gather_bytes(mine.data(), mine.size(), sizeof(Record), [&all](std::size_t n) {
+      all.resize(n);
+      return static_cast<void*>(all.data());
+    });
+    return all;
+  }
+
+private:
+  friend class ExactReduction;
+  void gather_bytes(const void* mine, std::size_t n, std::size_t size,
+                    const std::function<void*(std::size_t)>& room) const;
+
+  MPI_Comm comm_ = MPI_COMM_NULL;
+  int rank_ = 0, n_ranks_ = 1;
+  mutable std::size_t n_reductions_ = 0;
+};
+
+} // namespace mergel::dem
