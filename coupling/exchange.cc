@@ -18,23 +18,23 @@ std::size_t uz(int i)
 } // namespace
 
 Interface make_interface(const fem::InterfaceMesh& mesh,
-                         const dem::LinearMaterial& material, double lip)
+                         const dem::LinearMaterial& material, double collar_height)
 {
   std::vector<dem::Vec3> x = mesh.x;
   std::vector<dem::Triangle> triangles = mesh.triangles;
   std::vector<int> follows(x.size()); // far-field node of each wall node
   for (std::size_t k = 0; k < x.size(); ++k) follows[k] = static_cast<int>(k);
 
-  if (lip > 0.0) {
-    // The rim at z = 0: directed edges of one triangle only, both ends in the surface.
+  if (collar_height > 0.0) {
+    // The rim at z = 0: edges of one triangle only, with both ends in the surface.
     const auto in_surface = [&](int k) {
-      return std::abs(mesh.x[uz(k)].z()) < 1e-9 * mesh.x[uz(k)].norm();
+      return std::abs(mesh.x[uz(k)].z()) < fem::coincidence * mesh.x[uz(k)].norm();
     };
     std::map<int, int> raised;
     const auto raise = [&](int k) {
       const auto [entry, is_new] = raised.try_emplace(k, static_cast<int>(x.size()));
       if (is_new) {
-        x.push_back(mesh.x[uz(k)] + dem::Vec3(0.0, 0.0, lip));
+        x.push_back(mesh.x[uz(k)] + dem::Vec3(0.0, 0.0, collar_height));
         follows.push_back(k);
       }
       return entry->second;
@@ -44,8 +44,8 @@ Interface make_interface(const fem::InterfaceMesh& mesh,
         const int a = t[e], b = t[(e + 1) % 3];
         if (!in_surface(a) || !in_surface(b)) continue;
         const int a_up = raise(a), b_up = raise(b);
-        triangles.push_back(
-            {b, a, a_up}); // the edge runs backwards: same side as its neighbour
+        // The edge reversed: the normal is on the same side as that of the triangle below.
+        triangles.push_back({b, a, a_up});
         triangles.push_back({b, a_up, b_up});
       }
   }
@@ -62,7 +62,7 @@ Exchange::Exchange(Transfer transfer, fem::FarField& far_field)
 {
 }
 
-const Nodal& Exchange::forces_up(const dem::Wall& wall)
+const Nodal& Exchange::sum_forces(const dem::Wall& wall)
 {
   f_dem_.resize(wall.f.size());
   for (std::size_t k = 0; k < wall.f.size(); ++k) f_dem_[k] = wall.f[k].value();
@@ -72,8 +72,8 @@ const Nodal& Exchange::forces_up(const dem::Wall& wall)
 
 Nodal Exchange::settle(dem::Wall& wall)
 {
-  far_field_.solve_static(forces_up(wall));
-  far_field_.interface_displacement(v_fem_); // as scratch
+  far_field_.solve_static(sum_forces(wall));
+  far_field_.interface_displacement(v_fem_); // v_fem_ as buffer
   Nodal u;
   transfer_.to_dem(v_fem_, u);
   for (std::size_t k = 0; k < u.size(); ++k) {
@@ -87,7 +87,7 @@ Nodal Exchange::settle(dem::Wall& wall)
 void Exchange::step(dem::Wall& wall, double dt)
 {
   const double start = dem::wall_clock();
-  forces_up(wall);
+  sum_forces(wall);
   const double up = dem::wall_clock();
   far_field_.step(dt, f_fem_);
   const double moved = dem::wall_clock();

@@ -1,5 +1,5 @@
-/// One coupling step: velocities down from the far field to the wall of the rock, forces
-/// up.
+/// One coupled step: velocities from the far field to the wall of the assembly, forces from
+/// the wall to the far field (coupling/README.md, Coupled step).
 #pragma once
 
 #include "coupling/transfer.h"
@@ -8,38 +8,38 @@
 
 namespace mergel::coupling {
 
-/// The wall that the interface faces of a far field make, and how their nodes belong
-/// together.
+/// The wall made of the interface faces of a far field, and the transfer between their
+/// nodes.
 ///
-/// Above the surface the wall ends in a lip that follows the top ring of nodes, so that
-/// debris cannot roll over it.
+/// Above the surface the wall has a collar, so that debris cannot roll over the rim. The
+/// upper nodes of the collar follow the surface nodes below them (coupling/README.md,
+/// Collar).
 struct Interface {
   dem::Wall wall;
   Transfer transfer;
 };
 
-/// @param lip height above the surface z = 0 [m], 0 for none
+/// @param collar_height above the surface z = 0 [m]; 0 for no collar
 Interface make_interface(const fem::InterfaceMesh& mesh,
-                         const dem::LinearMaterial& material, double lip);
+                         const dem::LinearMaterial& material, double collar_height);
 
-/// Moves the wall of a rock with a far field, one far-field step per DEM step.
+/// Moves the wall of an assembly with a far field, one far-field step per DEM step.
 class Exchange {
 public:
   Exchange(Transfer transfer, fem::FarField& far_field);
 
   /// Forces of the wall nodes, summed to the far-field nodes: f_fem = N^T f_dem.
-  const Nodal& forces_up(const dem::Wall& wall);
+  const Nodal& sum_forces(const dem::Wall& wall);
 
-  /// For a far field that has not moved yet: static equilibrium under the present wall forces (design section 8),
-  /// wall nodes at rest in its displaced place. Returns the displacement of the wall nodes
-  /// [m].
+  /// Static solution of a far field that has not moved yet, under the present wall forces
+  /// (coupling/README.md, Start of a coupled run). Moves the wall nodes by it and sets
+  /// their velocities to zero. Returns the displacements of the wall nodes [m].
   Nodal settle(dem::Wall& wall);
 
-  /// Kick and drift the far field with the wall's forces, then move the wall with it over
-  /// dt [s].
+  /// One step of the far field under the wall forces, then the motion of the wall nodes
+  /// with it over dt [s].
   void step(dem::Wall& wall, double dt);
 
-  const Nodal& far_field_forces() const { return f_fem_; }
   const Nodal& far_field_velocities() const { return v_fem_; }
   const Transfer& transfer() const { return transfer_; }
 
@@ -52,8 +52,8 @@ private:
   Nodal f_dem_, f_fem_, v_fem_;
 };
 
-/// Displacement field inside a region whose border nodes x moved by u: inverse-distance
-/// weights of power 3, exact for translations [m].
+/// Displacement at a point of a region whose boundary nodes x have moved by u [m]:
+/// inverse-distance weights of power 3, exact for translations.
 dem::Vec3 interpolate_inside(const Nodal& x, const Nodal& u, const dem::Vec3& at);
 
 } // namespace mergel::coupling

@@ -7,16 +7,16 @@ namespace mergel::coupling {
 InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
                                    const Nodal& x_fem, const dem::Communicator& comm)
 {
-  dem::WallSums sums = dem::sum_pushes(wall);
+  dem::WallSums sums = dem::sum_contact_forces(wall);
   dem::ExactReduction all;
   all.add(sums.force);
   all.add(sums.moment);
   all.add(sums.power);
   all.run(comm);
-  const Nodal& f_fem = exchange.forces_up(wall);
+  const Nodal& f_fem = exchange.sum_forces(wall);
   const Nodal& v_fem = exchange.far_field_velocities();
 
-  // What the far field gets and what the grains feel sum to nothing.
+  // Forces on the far field and on the particles sum to zero.
   dem::Vec3 force = sums.force.value(), moment = sums.moment.value();
   double power = 0.0, sum_f = 0.0, sum_m = 0.0, sum_p = 0.0;
   for (std::size_t k = 0; k < wall.f.size(); ++k) {

@@ -1,5 +1,5 @@
-/// Books of the interface: force, moment and power must leave one side as they reach the
-/// other.
+/// Interface balance: force, moment and power on the particles' side must equal those on
+/// the side of the far field (coupling/README.md, Interface balance).
 #pragma once
 
 #include "coupling/exchange.h"
@@ -7,21 +7,21 @@
 
 namespace mergel::coupling {
 
-/// Relative differences between what the rock feels from the wall and what the far field
-/// gets [-].
+/// Relative differences between the wall forces on the particles and the forces on the far
+/// field [-].
 struct InterfaceBalance {
-  double force = 0.0;  ///< |sum f_fem + sum f_grains| / sum |f_wall|
+  double force = 0.0;  ///< |sum f_fem + sum f_particles| / sum |f_wall|
   double moment = 0.0; ///< about the origin, over sum |x| |f_wall|
-  double power =
-      0.0; ///< |sum f_fem.v_fem - power at the points of action| / sum |f_wall| |v_wall|
+  /// |sum f_fem.v_fem - power at the points of action| / sum |f_wall| |v_wall|
+  double power = 0.0;
 };
 
-/// Of the last forces, at the positions and velocities of the wall at which they were
-/// computed: call after the forces and before the wall moves.
+/// Balance of the last forces, at the wall positions and velocities at which they were
+/// computed: call it after the forces and before the wall moves.
 ///
-/// A lip follows its nodes without turning, so contacts on the lip leave the moment of
-/// force times lip height; everything else balances to round-off. Collective.
-/// @param comm of the rock whose wall it is
+/// The collar does not rotate with the rim, so contacts on the collar leave a moment of
+/// force times height. Everything else balances to round-off. Collective.
+/// @param comm of the assembly to which the wall belongs
 InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
                                    const Nodal& x_fem, const dem::Communicator& comm);
 

@@ -23,8 +23,9 @@ Transfer::Transfer(Eigen::SparseMatrix<double, Eigen::RowMajor> N) : N_(std::mov
     double sum = 0.0;
     for (Row entry(N_, k); entry; ++entry) sum += entry.value();
     if (!(std::abs(sum - 1.0) < 1e-12))
-      throw std::logic_error("interpolation row " + std::to_string(k) + " sums to " +
-                             std::to_string(sum));
+      throw std::logic_error("row " + std::to_string(k) +
+                             " of the transfer matrix sums to " + std::to_string(sum) +
+                             ", not 1");
   }
 }
 

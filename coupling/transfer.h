@@ -12,7 +12,8 @@ namespace mergel::coupling {
 using Nodal =
     std::vector<Eigen::Vector3d>; ///< one vector per node, in the order of its mesh
 
-/// One row per wall node, one column per far-field node.
+/// Sparse matrix N (coupling/README.md, Transfer): one row per wall node, one column per
+/// far-field node.
 ///   v_dem = N v_fem     consistent: rows of N sum to 1, so a translation stays one
 ///   f_fem = N^T f_dem   conservative: resultant and interface power are preserved
 class Transfer {

@@ -1,4 +1,4 @@
-/// A failure that all ranks meet together.
+/// Failures that end a run on all ranks together.
 #pragma once
 
 #include "dem/error.h"
@@ -7,37 +7,40 @@
 
 namespace mergel {
 
-/// Every rank throws it alike: the first may speak for all, and all can leave in order.
+/// Thrown on every rank with the same message: the first rank prints it, and all ranks end
+/// without MPI_Abort (apps/run/run_guard.h).
 struct CollectiveFailure : NumericalError {
   using NumericalError::NumericalError;
 };
 
-/// The run is no longer one of physics: some number has left the range in which its step is
-/// sound. From the same state it would fail again.
+/// A failure of the computed state, such as a number out of the range in which a step is
+/// valid. A run from the same state would fail again.
 struct Unstable : CollectiveFailure {
   using CollectiveFailure::CollectiveFailure;
 };
 
-/// What one of several ranks meets where it cannot stop alone: the others would wait for it
-/// in their next message. It is kept until the ranks speak anyway (Communicator::agree_on).
+/// Message of a NumericalError that one of several ranks found. The rank cannot stop alone,
+/// because the others would wait for its next message. The message is kept until the next
+/// Communicator::agree_on().
 class Fault {
 public:
-  /// Run `body`, unless something is wrong already, and keep the words of a NumericalError.
-  template <class Body>
-  void watch(Body&& body)
+  /// Run `task`, unless a message is kept already, and keep the message of a
+  /// NumericalError.
+  template <class Task>
+  void run(Task&& task)
   {
-    if (is_met()) return;
+    if (is_set()) return;
     try {
-      body();
+      task();
     } catch (const NumericalError& error) {
-      words_ = *error.what() ? error.what() : "unknown failure";
+      message_ = *error.what() ? error.what() : "unknown failure";
     }
   }
-  bool is_met() const { return !words_.empty(); }
-  const std::string& words() const { return words_; }
+  bool is_set() const { return !message_.empty(); }
+  const std::string& message() const { return message_; }
 
 private:
-  std::string words_;
+  std::string message_;
 };
 
 } // namespace mergel

@@ -1,5 +1,6 @@
-/// The two faults that a run can meet, by who can mend them. apps/run/run_guard.h turns them
-/// into exit codes: InputError 1, NumericalError 2, anything else 3 (a bug).
+/// The two errors of a run: of its input, which the user can correct, and of the run.
+/// The exit codes (apps/run/run_guard.h) are 1 for InputError, 2 for NumericalError, and 3
+/// for anything else (a bug).
 #pragma once
 
 #include <stdexcept>
@@ -7,7 +8,7 @@
 
 namespace mergel {
 
-/// The user's input cannot be used: what, value, allowed, remedy, and where.
+/// The user's input is refused. The message says what, value, allowed range, remedy, place.
 struct InputError : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
@@ -17,9 +18,9 @@ struct NumericalError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Call f; a NumericalError from it gets the particle's id in front.
+/// Call f; the id of the particle is put before the message of a NumericalError from it.
 template <class F>
-decltype(auto) naming_particle(unsigned long long id, F&& f)
+decltype(auto) with_particle_id(unsigned long long id, F&& f)
 {
   try {
     return f();

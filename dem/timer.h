@@ -1,4 +1,4 @@
-/// Wall-clock time, for the closing summary, checkpoints and benchmarks; never for physics.
+/// Wall-clock time, for summaries, checkpoints and benchmarks; never for physics.
 #pragma once
 
 namespace mergel::dem {

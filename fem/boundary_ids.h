@@ -3,8 +3,8 @@
 
 namespace mergel::fem::boundary {
 
-inline constexpr int interface_side =
-    1; ///< r = R_d, -H_d < z < 0: lateral face towards the DEM region
+/// r = R_d, -H_d < z < 0: lateral face towards the DEM region
+inline constexpr int interface_side = 1;
 inline constexpr int interface_bottom = 2; ///< z = -H_d, r < R_d: floor of the DEM region
 inline constexpr int symmetry = 3;         ///< y = 0: the cut plane of the half model
 inline constexpr int outer = 4;            ///< r = R_c: wall of the chamber

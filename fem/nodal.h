@@ -1,5 +1,4 @@
-/// Nodal vectors as fem/ stores them inside: four doubles a node, so that a node is one
-/// SIMD word.
+/// Nodal vectors inside fem/: four doubles per node, so that a node is one SIMD register.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,19 +11,23 @@ using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
 /// One column per node: x, y, z and a fourth entry that is always zero.
-using Nodal = Eigen::Array<double, 4, Eigen::Dynamic>;
+using NodalField = Eigen::Array<double, 4, Eigen::Dynamic>;
 
-/// The four entries of one node as a vector of the processor.
-using Lanes [[gnu::vector_size(32)]] = double;
+/// Two points of a mesh coincide, or one lies on a plane, within this share of the size of the
+/// mesh [-].
+inline constexpr double coincidence = 1e-9;
+
+/// The four entries of one node as a SIMD vector.
+using NodeLanes [[gnu::vector_size(32)]] = double;
 
 /// The vector of node a.
-inline Vec3 at(const Nodal& field, Eigen::Index a)
+inline Vec3 at(const NodalField& field, Eigen::Index a)
 {
   return field.col(a).head<3>().matrix();
 }
 
 /// Sum of a.b over all nodes.
-inline double dot(const Nodal& a, const Nodal& b)
+inline double dot(const NodalField& a, const NodalField& b)
 {
   return (a * b).sum();
 }

@@ -9,7 +9,7 @@ namespace mergel::fem {
 struct Runtime::Libraries {
   Libraries(int argc, char** argv) : name{argc > 0 ? argv[0] : nullptr, nullptr} {}
 
-  // MPI_InitFinalize keeps references to these
+  // MPI_InitFinalize keeps references to these two.
   std::array<char*, 2> name;
   int n_arguments = 1;
   char** arguments = name.data();

@@ -1,12 +1,12 @@
-/// Start and end of MPI, PETSc and the libraries that deal.II brings.
+/// Initialisation and finalisation of MPI, PETSc and the libraries of deal.II.
 #pragma once
 
 #include <memory>
 
 namespace mergel::fem {
 
-/// One per program, made first in main and destroyed last. PETSc is not shown the command
-/// line (it would answer --help itself); its options are read from the variable
+/// One per program, made first in main and destroyed last. PETSc does not get the command
+/// line (it would answer --help itself); it reads its options from the environment variable
 /// PETSC_OPTIONS.
 class Runtime {
 public:

@@ -47,12 +47,14 @@ std::vector<ContactRecord> contact_records(const Contacts& contacts)
   return records;
 }
 
-/// Records of pairs from all ranks, each once, ascending. A pair is told by the owner of its
-/// first grain; the owner of its second, if another, is compared with it on request.
+/// Records of pairs from all ranks, each once, ascending. The owner of the first particle
+/// supplies the record. If `compare` is set, it is compared with the record of the owner of
+/// the second particle.
 template <class Record>
-std::vector<Record> gathered(const Rock& rock, std::vector<Record> records, bool compare)
+std::vector<Record> gathered(const Assembly& assembly, std::vector<Record> records,
+                             bool compare)
 {
-  const Particles& p = rock.particles;
+  const Particles& p = assembly.particles;
   std::vector<Record> first, second;
   for (const Record& r : records) {
     if (p.owns(r.pair.i))
@@ -60,11 +62,11 @@ std::vector<Record> gathered(const Rock& rock, std::vector<Record> records, bool
     else if (p.owns(r.pair.j))
       second.push_back(r);
   }
-  std::vector<Record> all = rock.comm.gather(first);
+  std::vector<Record> all = assembly.comm.gather(first);
   const auto ascending = [](const Record& a, const Record& b) { return a.pair < b.pair; };
   std::sort(all.begin(), all.end(), ascending);
   if (compare)
-    for (const Record& r : rock.comm.gather(second)) {
+    for (const Record& r : assembly.comm.gather(second)) {
       const auto at = std::lower_bound(all.begin(), all.end(), r, ascending);
       if (at == all.end() || !(at->pair == r.pair) ||
           std::memcmp(at->history.data(), r.history.data(), sizeof r.history) != 0)
@@ -75,7 +77,7 @@ std::vector<Record> gathered(const Rock& rock, std::vector<Record> records, bool
   return all;
 }
 
-/// Records of single grains from all ranks, in the order of `key`.
+/// Records of single particles from all ranks, in the order of `key`.
 template <class Record, class Key>
 std::vector<Record> gathered_by(const Communicator& comm, const std::vector<Record>& mine,
                                 Key&& key)
@@ -91,50 +93,50 @@ std::pair<Index, int> key_of(const WallContact& c)
   return {c.particle, c.wall};
 }
 
-/// What the owner of a grain knows of it, its motion apart.
-struct GrainRecord {
+/// What only the owner of a particle holds, apart from its motion.
+struct ParticleRecord {
   Index particle;
   int n_bonds;
   std::array<double, 6> load; ///< f, t
 };
 
-/// Drop what touches no owned grain.
-void keep_own(Rock& rock)
+/// Drop all bonds, contacts and wall contacts without an owned particle.
+void keep_own(Assembly& assembly)
 {
-  const Particles& p = rock.particles;
+  const Particles& p = assembly.particles;
   std::vector<BondRecord> bonds;
-  for (const BondRecord& r : bond_records(rock.bonds))
+  for (const BondRecord& r : bond_records(assembly.bonds))
     if (p.owns(r.pair.i) || p.owns(r.pair.j)) bonds.push_back(r);
-  rock.bonds = bonds_of(bonds);
+  assembly.bonds = bonds_of(bonds);
 
   Contacts contacts;
-  for (std::size_t c = 0; c < rock.contacts.pairs.size(); ++c) {
-    const Pair& q = rock.contacts.pairs[c];
+  for (std::size_t c = 0; c < assembly.contacts.pairs.size(); ++c) {
+    const Pair& q = assembly.contacts.pairs[c];
     if (!p.owns(q.i) && !p.owns(q.j)) continue;
     contacts.pairs.push_back(q);
-    contacts.shear.push_back(rock.contacts.shear[c]);
+    contacts.shear.push_back(assembly.contacts.shear[c]);
   }
-  rock.contacts = std::move(contacts);
+  assembly.contacts = std::move(contacts);
 
-  const auto foreign = [&p](const auto& r) { return !p.owns(r.particle); };
-  for (Mirror& m : rock.mirrors) std::erase_if(m.pairs, foreign);
-  for (PlaneWall& w : rock.planes) std::erase_if(w.contacts.contacts(), foreign);
-  for (PileWall& w : rock.piles) std::erase_if(w.contacts.contacts(), foreign);
-  for (Wall& w : rock.walls) {
-    std::erase_if(w.contacts, foreign);
-    w.listed.resize(w.contacts.size()); // made anew with the list
-    std::erase_if(w.bonds, foreign);
+  const auto is_remote = [&p](const auto& r) { return !p.owns(r.particle); };
+  for (Mirror& m : assembly.mirrors) std::erase_if(m.pairs, is_remote);
+  for (PlaneWall& w : assembly.planes) std::erase_if(w.contacts.contacts(), is_remote);
+  for (PileWall& w : assembly.piles) std::erase_if(w.contacts.contacts(), is_remote);
+  for (Wall& w : assembly.walls) {
+    std::erase_if(w.contacts, is_remote);
+    w.listed.resize(w.contacts.size()); // rebuilt with the list
+    std::erase_if(w.bonds, is_remote);
   }
-  rock.list.invalidate();
+  assembly.list.invalidate();
 }
 
-/// Losses and works of the whole stay on rank 0, so that their sum over ranks is theirs.
-void keep_sums_once(Rock& rock)
+/// Keep losses and works on rank 0 only, so that their sum over the ranks does not change.
+void keep_sums_once(Assembly& assembly)
 {
-  if (rock.comm.rank() == 0) return;
-  rock.losses = {};
-  rock.work = {};
-  for (Mirror& m : rock.mirrors) {
+  if (assembly.comm.rank() == 0) return;
+  assembly.losses = {};
+  assembly.work = {};
+  for (Mirror& m : assembly.mirrors) {
     m.energy.clear();
     m.force.clear();
   }
@@ -142,81 +144,83 @@ void keep_sums_once(Rock& rock)
 
 } // namespace
 
-void share_out(Rock& rock, MPI_Comm comm)
+void distribute(Assembly& assembly, MPI_Comm comm)
 {
-  rock.comm = Communicator(comm);
-  if (rock.comm.is_alone()) return;
-  // A first share by number, so that each grain has one owner to give it away.
-  const auto n = rock.particles.size(),
-             n_ranks = static_cast<std::size_t>(rock.comm.n_ranks()),
-             rank = static_cast<std::size_t>(rock.comm.rank());
+  assembly.comm = Communicator(comm);
+  if (assembly.comm.is_alone()) return;
+  // A preliminary partition by index: Zoltan needs one owner for each particle.
+  const auto n = assembly.particles.size(),
+             n_ranks = static_cast<std::size_t>(assembly.comm.n_ranks()),
+             rank = static_cast<std::size_t>(assembly.comm.rank());
   std::vector<char> is_owned(n, 0);
   for (std::size_t i = rank * n / n_ranks; i < (rank + 1) * n / n_ranks; ++i)
     is_owned[i] = 1;
-  rock.particles.set_ownership(std::move(is_owned), std::vector<char>(n, 0));
-  rock.partition.assign(rock.particles, {}, rock.comm);
-  rock.ghosts.clear();
-  keep_own(rock);
-  keep_sums_once(rock);
+  assembly.particles.set_ownership(std::move(is_owned), std::vector<char>(n, 0));
+  assembly.partition.assign(assembly.particles, {}, assembly.comm);
+  assembly.ghosts.clear();
+  keep_own(assembly);
+  keep_sums_once(assembly);
 }
 
-Rock whole(Rock& rock, bool compare)
+Assembly gather(Assembly& assembly, bool compare)
 {
-  if (rock.comm.is_alone()) return rock;
-  rock.partition.gather_motion(rock.particles, rock.comm);
-  Rock all = rock;
+  if (assembly.comm.is_alone()) return assembly;
+  assembly.partition.gather_motion(assembly.particles, assembly.comm);
+  Assembly all = assembly;
   all.comm = Communicator();
   all.partition = Partition();
   all.ghosts = Ghosts();
 
   Particles& p = all.particles;
-  std::vector<GrainRecord> grains;
-  rock.particles.for_owned([&](Index i) {
+  std::vector<ParticleRecord> particles;
+  assembly.particles.for_owned([&](Index i) {
     const Vec3 &f = p.load[i].f, &t = p.load[i].t;
-    grains.push_back({i, p.n_bonds[i], {f.x(), f.y(), f.z(), t.x(), t.y(), t.z()}});
+    particles.push_back({i, p.n_bonds[i], {f.x(), f.y(), f.z(), t.x(), t.y(), t.z()}});
   });
-  for (const GrainRecord& g : rock.comm.gather(grains)) {
+  for (const ParticleRecord& g : assembly.comm.gather(particles)) {
     p.n_bonds[g.particle] = g.n_bonds;
     p.load[g.particle].f = {g.load[0], g.load[1], g.load[2]};
     p.load[g.particle].t = {g.load[3], g.load[4], g.load[5]};
   }
 
-  all.bonds = bonds_of(gathered(rock, bond_records(rock.bonds), compare));
+  all.bonds = bonds_of(gathered(assembly, bond_records(assembly.bonds), compare));
   all.contacts = {};
-  for (const ContactRecord& r : gathered(rock, contact_records(rock.contacts), compare)) {
+  for (const ContactRecord& r :
+       gathered(assembly, contact_records(assembly.contacts), compare)) {
     all.contacts.pairs.push_back(r.pair);
     all.contacts.shear.emplace_back().f_s = Vec3(r.history[0], r.history[1], r.history[2]);
   }
 
   ExactReduction sums;
   const auto by_particle = [](const auto& r) { return r.particle; };
-  for (std::size_t k = 0; k < rock.mirrors.size(); ++k) {
-    all.mirrors[k].pairs = gathered_by(rock.comm, rock.mirrors[k].pairs, by_particle);
+  for (std::size_t k = 0; k < assembly.mirrors.size(); ++k) {
+    all.mirrors[k].pairs =
+        gathered_by(assembly.comm, assembly.mirrors[k].pairs, by_particle);
     sums.add(all.mirrors[k].energy);
     sums.add(all.mirrors[k].force);
   }
-  for (std::size_t k = 0; k < rock.planes.size(); ++k)
+  for (std::size_t k = 0; k < assembly.planes.size(); ++k)
     all.planes[k].contacts.contacts() =
-        gathered_by(rock.comm, rock.planes[k].contacts.contacts(), key_of);
-  for (std::size_t k = 0; k < rock.piles.size(); ++k)
+        gathered_by(assembly.comm, assembly.planes[k].contacts.contacts(), key_of);
+  for (std::size_t k = 0; k < assembly.piles.size(); ++k)
     all.piles[k].contacts.contacts() =
-        gathered_by(rock.comm, rock.piles[k].contacts.contacts(), key_of);
-  for (std::size_t k = 0; k < rock.walls.size(); ++k) {
+        gathered_by(assembly.comm, assembly.piles[k].contacts.contacts(), key_of);
+  for (std::size_t k = 0; k < assembly.walls.size(); ++k) {
     Wall& w = all.walls[k];
-    w.contacts = gathered_by(rock.comm, rock.walls[k].contacts, key_of);
+    w.contacts = gathered_by(assembly.comm, assembly.walls[k].contacts, key_of);
     w.listed.assign(w.contacts.size(), {});
-    w.bonds = gathered_by(rock.comm, rock.walls[k].bonds, by_particle);
+    w.bonds = gathered_by(assembly.comm, assembly.walls[k].bonds, by_particle);
   }
-  for (EnergySum* s : {&all.losses.slip, &all.losses.plastic, &all.losses.residue,
-                       &all.work.gravity, &all.work.damping, &all.work.lock})
+  for (EnergySum* s : {&all.losses.slip, &all.losses.plastic, &all.losses.breakage_release,
+                       &all.work.gravity, &all.work.damping, &all.work.rotation_constraint})
     sums.add(*s);
-  sums.run(rock.comm);
-  all.losses.broken = rock.comm.global_sum(rock.losses.broken);
-  all.losses.yielded = rock.comm.global_sum(rock.losses.yielded);
+  sums.run(assembly.comm);
+  all.losses.broken = assembly.comm.global_sum(assembly.losses.broken);
+  all.losses.yielded = assembly.comm.global_sum(assembly.losses.yielded);
   for (std::size_t k = 0; k < n_break_modes; ++k)
-    all.losses.broken_by[k] = rock.comm.global_sum(rock.losses.broken_by[k]);
-  all.losses.virial = rock.virial;
-  all.losses.breakages = gathered_by(rock.comm, rock.losses.breakages,
+    all.losses.broken_by[k] = assembly.comm.global_sum(assembly.losses.broken_by[k]);
+  all.losses.virial = assembly.virial;
+  all.losses.breakages = gathered_by(assembly.comm, assembly.losses.breakages,
                                      [](const Breakage& b) { return b.pair; });
 
   const std::size_t n = p.size();
@@ -225,13 +229,13 @@ Rock whole(Rock& rock, bool compare)
   return all;
 }
 
-void rebalance(Rock& rock, double seconds, bool compare)
+void rebalance(Assembly& assembly, double seconds, bool compare)
 {
-  if (rock.comm.is_alone()) return;
-  Particles& p = rock.particles;
-  // A grain's share of the time goes with the pairs that it has a part in.
+  if (assembly.comm.is_alone()) return;
+  Particles& p = assembly.particles;
+  // A particle's share of the time is proportional to 1 + the number of its pairs.
   std::vector<double> pairs(p.size(), 1.0);
-  for (const auto* list : {&rock.bonds.pairs, &rock.contacts.pairs})
+  for (const auto* list : {&assembly.bonds.pairs, &assembly.contacts.pairs})
     for (const Pair& q : *list) {
       pairs[q.i] += 1.0;
       pairs[q.j] += 1.0;
@@ -241,27 +245,27 @@ void rebalance(Rock& rock, double seconds, bool compare)
   std::vector<double> weight;
   p.for_owned([&](Index i) { weight.push_back(seconds * pairs[i] / all_pairs); });
 
-  Rock all = whole(rock, compare);
-  rock.partition.assign(p, weight, rock.comm);
-  rock.ghosts.clear();
-  // Only what migrates is replaced: others hold references to walls and piles.
+  Assembly all = gather(assembly, compare);
+  assembly.partition.assign(p, weight, assembly.comm);
+  assembly.ghosts.clear();
+  // Replace only what migrates: callers hold references to walls and piles.
   std::vector<char> is_owned(p.size(), 0);
   p.for_owned([&](Index i) { is_owned[i] = 1; });
   all.particles.set_ownership(std::move(is_owned), std::vector<char>(p.size(), 0));
   p = std::move(all.particles);
-  rock.bonds = std::move(all.bonds);
-  rock.contacts = std::move(all.contacts);
-  for (std::size_t k = 0; k < rock.mirrors.size(); ++k)
-    rock.mirrors[k].pairs = std::move(all.mirrors[k].pairs);
-  for (std::size_t k = 0; k < rock.planes.size(); ++k)
-    rock.planes[k].contacts = std::move(all.planes[k].contacts);
-  for (std::size_t k = 0; k < rock.piles.size(); ++k)
-    rock.piles[k].contacts = std::move(all.piles[k].contacts);
-  for (std::size_t k = 0; k < rock.walls.size(); ++k) {
-    rock.walls[k].contacts = std::move(all.walls[k].contacts);
-    rock.walls[k].bonds = std::move(all.walls[k].bonds);
+  assembly.bonds = std::move(all.bonds);
+  assembly.contacts = std::move(all.contacts);
+  for (std::size_t k = 0; k < assembly.mirrors.size(); ++k)
+    assembly.mirrors[k].pairs = std::move(all.mirrors[k].pairs);
+  for (std::size_t k = 0; k < assembly.planes.size(); ++k)
+    assembly.planes[k].contacts = std::move(all.planes[k].contacts);
+  for (std::size_t k = 0; k < assembly.piles.size(); ++k)
+    assembly.piles[k].contacts = std::move(all.piles[k].contacts);
+  for (std::size_t k = 0; k < assembly.walls.size(); ++k) {
+    assembly.walls[k].contacts = std::move(all.walls[k].contacts);
+    assembly.walls[k].bonds = std::move(all.walls[k].bonds);
   }
-  keep_own(rock);
+  keep_own(assembly);
 }
 
 } // namespace mergel::dem

@@ -1,4 +1,5 @@
-/// A rock on several ranks: sharing it out, bringing it together, moving it between them.
+/// An assembly on several ranks: distribute it, gather it, rebalance the load
+/// (dem/README.md, Parallel execution).
 #pragma once
 
 #include "dem/assembly/step.h"
@@ -12,21 +13,22 @@ inline constexpr bool compares_histories = false;
 inline constexpr bool compares_histories = true;
 #endif
 
-/// From a rock that every rank holds whole to one of which each owns a part and keeps what
-/// touches it. Nothing on one rank. The list is stale afterwards. Collective.
-void share_out(Rock& rock, MPI_Comm comm);
+/// Distribute an assembly that every rank holds completely: each rank then owns a part of
+/// the particles and keeps the bonds, contacts and wall contacts of these. Does nothing on
+/// one rank. The list is stale afterwards. Collective.
+void distribute(Assembly& assembly, MPI_Comm comm);
 
-/// The whole rock on every rank: all motions, bonds, contacts and wall contacts with their
-/// histories, and the sums of losses and works. Its comm is one rank that owns everything.
-/// Collective.
+/// The complete assembly on every rank: all motions, bonds, contacts and wall contacts with
+/// their histories, and the sums of losses and works. Its `comm` is a single rank that owns
+/// all particles. Collective.
 ///
-/// @param compare the histories that two ranks hold of a pair across their border are
-///   compared bit by bit, and a difference throws std::logic_error
-Rock whole(Rock& rock, bool compare = compares_histories);
+/// @param compare whether the histories that two ranks hold of a pair across their border
+///   are compared bit by bit; a difference throws std::logic_error
+Assembly gather(Assembly& assembly, bool compare = compares_histories);
 
-/// Own what an even share of `seconds`, the time that each rank spent on its grains, asks
-/// for: grains migrate with all their histories. No bit of any result depends on it.
-/// Collective.
-void rebalance(Rock& rock, double seconds, bool compare = compares_histories);
+/// New partition with an even share of the computing time for each rank: particles migrate
+/// with all their histories. No bit of any result depends on it. Collective.
+/// @param seconds that this rank spent on its particles [s]
+void rebalance(Assembly& assembly, double seconds, bool compare = compares_histories);
 
 } // namespace mergel::dem

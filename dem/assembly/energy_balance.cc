@@ -2,49 +2,49 @@
 
 namespace mergel::dem {
 
-EnergyBook energy_book(const Rock& rock, double dt)
+EnergyBalance energy_balance(const Assembly& assembly, double dt)
 {
-  EnergyBook e;
-  Particles now = rock.particles;
-  KickWork work = rock.work;
-  kick(now, rock.motion, 0.5 * dt, work);
+  EnergyBalance e;
+  Particles now = assembly.particles;
+  KickWork work = assembly.work;
+  kick(now, assembly.motion, 0.5 * dt, work);
   EnergySum kinetic = kinetic_energy_sum(now), walls, mirror;
-  PairEnergy pairs =
-      pair_energy(rock.material, rock.cell, rock.particles, rock.bonds, rock.contacts);
-  for (const Mirror& m : rock.mirrors) mirror += m.energy;
-  for (const PlaneWall& w : rock.planes) walls += w.contacts.energy();
-  for (const Wall& w : rock.walls) walls += w.energy();
-  for (const PileWall& w : rock.piles) walls += w.contacts.energy();
-  PairLosses losses = rock.losses;
+  PairEnergy pairs = pair_energy(assembly.material, assembly.cell, assembly.particles,
+                                 assembly.bonds, assembly.contacts);
+  for (const Mirror& m : assembly.mirrors) mirror += m.energy;
+  for (const PlaneWall& w : assembly.planes) walls += w.contacts.energy();
+  for (const Wall& w : assembly.walls) walls += w.energy();
+  for (const PileWall& w : assembly.piles) walls += w.contacts.energy();
+  PairLosses losses = assembly.losses;
   ExactReduction sums;
-  for (EnergySum* s :
-       {&kinetic, &pairs.bonds, &pairs.contacts, &walls, &mirror, &work.gravity,
-        &work.damping, &work.lock, &losses.slip, &losses.plastic, &losses.residue})
+  for (EnergySum* s : {&kinetic, &pairs.bonds, &pairs.contacts, &walls, &mirror,
+                       &work.gravity, &work.damping, &work.rotation_constraint,
+                       &losses.slip, &losses.plastic, &losses.breakage_release})
     sums.add(*s);
-  sums.run(rock.comm);
+  sums.run(assembly.comm);
   e.kinetic = kinetic.value();
   e.bonds = pairs.bonds.value();
   e.contacts = pairs.contacts.value();
   e.mirror = mirror.value();
   e.walls = walls.value();
 
-  const WallPower power = wall_power(rock);
+  const WallPower power = wall_power(assembly);
   e.gravity = work.gravity.value();
-  e.wall_work = rock.wall_work.value() + 0.5 * dt * power.walls;
-  e.pile_work = rock.pile_work.value() + 0.5 * dt * power.pile;
-  e.cell_work = rock.cell_work.value() + 0.5 * dt * cell_power(rock);
+  e.wall_work = assembly.wall_work.value() + 0.5 * dt * power.walls;
+  e.pile_work = assembly.pile_work.value() + 0.5 * dt * power.pile;
+  e.cell_work = assembly.cell_work.value() + 0.5 * dt * cell_power(assembly);
 
   e.slip = losses.slip.value();
   e.plastic = losses.plastic.value();
-  e.residue = losses.residue.value();
-  e.lock = work.lock.value();
+  e.breakage_release = losses.breakage_release.value();
+  e.rotation_constraint = work.rotation_constraint.value();
   e.damping = work.damping.value();
   return e;
 }
 
-double unexplained(const EnergyBook& now, const EnergyBook& start)
+double unexplained(const EnergyBalance& now, const EnergyBalance& start)
 {
-  return (now.stored() - start.stored()) - (now.put_in() - start.put_in()) +
+  return (now.stored() - start.stored()) - (now.input() - start.input()) +
          (now.lost() - start.lost());
 }
 

@@ -1,4 +1,5 @@
-/// The energy book of a rock: what was put in is stored or lost.
+/// Energy balance of an assembly: growth of the stored energy = input - loss
+/// (dem/README.md, Energy balance).
 #pragma once
 
 #include "dem/assembly/step.h"
@@ -6,24 +7,29 @@
 namespace mergel::dem {
 
 /// All terms [J], at the whole step of the positions.
-struct EnergyBook {
+struct EnergyBalance {
   double kinetic = 0.0, bonds = 0.0, contacts = 0.0, walls = 0.0, mirror = 0.0; ///< stored
-  double gravity = 0.0, wall_work = 0.0, pile_work = 0.0, cell_work = 0.0;      ///< put in
-  double slip = 0.0, plastic = 0.0, residue = 0.0, lock = 0.0, damping = 0.0;   ///< lost
+  double gravity = 0.0, wall_work = 0.0, pile_work = 0.0, cell_work = 0.0;      ///< input
+  double slip = 0.0, plastic = 0.0, breakage_release = 0.0, rotation_constraint = 0.0,
+         damping = 0.0; ///< lost
 
   double stored() const { return kinetic + bonds + contacts + walls + mirror; }
-  double put_in() const { return gravity + wall_work + pile_work + cell_work; }
-  double lost() const { return slip + plastic + residue + lock + damping; }
+  double input() const { return gravity + wall_work + pile_work + cell_work; }
+  double lost() const
+  {
+    return slip + plastic + breakage_release + rotation_constraint + damping;
+  }
 };
 
-/// Velocities are half a step behind: kinetic energy and works are carried over the missing
-/// half step by the forces that act now, without moving the rock. Else the power of half a
-/// step is missing, which shows when a moving wall first meets a grain.
+/// All terms at the time of the positions. Velocities are half a step behind, so kinetic
+/// energy and works are carried over the missing half step by the present forces; the
+/// assembly does not move. Otherwise the work of half a step would be missing, which shows
+/// when a moving wall first touches a particle. Collective.
 /// @param dt present step [s]
-EnergyBook energy_book(const Rock& rock, double dt);
+EnergyBalance energy_balance(const Assembly& assembly, double dt);
 
-/// Energy that the book cannot explain since `start` [J]: growth of what is stored, less
-/// what was put in, plus what was lost.
-double unexplained(const EnergyBook& now, const EnergyBook& start);
+/// Error of the energy balance since `start` [J]: growth of the stored energy - input +
+/// loss.
+double unexplained(const EnergyBalance& now, const EnergyBalance& start);
 
 } // namespace mergel::dem

@@ -1,4 +1,4 @@
-/// One DEM step, and the state that it moves.
+/// One DEM step, and the assembly that it advances.
 #pragma once
 
 #include "dem/assembly/timestep.h"
@@ -17,7 +17,7 @@
 
 namespace mergel::dem {
 
-/// A rigid plane and the spheres at it.
+/// A rigid plane and its contacts.
 struct PlaneWall {
   Plane plane;
   LinearMaterial material;
@@ -25,7 +25,7 @@ struct PlaneWall {
   VectorSum force; ///< on the plane in the last step, of all ranks [N]
 };
 
-/// The pile and the spheres at it.
+/// The pile and its contacts.
 struct PileWall {
   Pile pile;
   LinearMaterial material;
@@ -33,13 +33,14 @@ struct PileWall {
   PileLoad load; ///< in the last step, of all ranks
 };
 
-/// A bonded rock with everything that acts on it. What a run does not have is an empty
-/// list.
+/// The bonded particles of a run and everything that acts on them. What a run does not have
+/// is an empty list.
 ///
-/// On several ranks each holds all grains, and of bonds, contacts and walls what touches its
-/// own (distribute.h). Losses and works are of owned grains, but for wall_work, pile_work and
-/// cell_work, which every rank knows in full.
-struct Rock {
+/// On several ranks each holds an entry for all particles, but only those bonds, contacts
+/// and wall contacts that have an owned particle (distribute.h). Losses and works are those
+/// of the owned particles, except wall_work, pile_work and cell_work: these are totals on
+/// every rank.
+struct Assembly {
   Communicator comm;
   Partition partition;
   Ghosts ghosts;
@@ -59,81 +60,86 @@ struct Rock {
 
   PairLosses losses;
   KickWork work;
-  EnergySum wall_work; ///< done on the rock by planes and triangulated walls that move [J]
-  EnergySum pile_work; ///< done on the rock by the pile [J]
-  EnergySum cell_work; ///< done on the rock by a driven cell [J]
-  ExactVector<EnergySum> virial; ///< of a driven cell in the last step, of all ranks [J]
-  Fault fault;                   ///< of this rank, of which the others do not know yet
+  EnergySum wall_work; ///< on the particles by moving planes and triangulated walls [J]
+  EnergySum pile_work; ///< on the particles by the pile [J]
+  EnergySum cell_work; ///< on the particles by a strain-controlled cell [J]
+  /// Of a strain-controlled cell in the last step, of all ranks [J].
+  ExactVector<EnergySum> virial;
+  Fault fault; ///< of this rank, not yet reported to the others
   StepTimes times;
 };
 
-/// Forces at the present positions, from histories carried over the step dt [s] that ends
-/// now. Ghosts follow their owners first; lists are rebuilt when they are stale. Collective,
-/// as is all below.
-/// @throws Unstable naming the particle, on all ranks alike, when a force or a place cannot
-///   be; on several ranks, of a rock without walls and driven cell, in the next advance()
-void add_forces(Rock& rock, double dt);
+/// Forces at the present positions; histories are updated over the step dt [s] that ends
+/// now. Ghosts are updated first, and stale lists are rebuilt. Collective, as is all below.
+/// @throws Unstable naming the particle, on all ranks alike, when a force or a position is
+///   not possible. On several ranks without walls and strain-controlled cell this happens
+///   in the next advance().
+void add_forces(Assembly& assembly, double dt);
 
-/// Make all lists anew for the present positions, whatever their age: it changes no force.
-void rebuild_lists(Rock& rock);
+/// Rebuild all lists for the present positions, stale or not. Changes no force.
+void rebuild_lists(Assembly& assembly);
 
-/// kick, drift, move the walls by `move_walls(dt)`, strain a driven cell, forces.
+/// One step: kick, drift, move the walls by `move_walls(dt)`, strain a strain-controlled
+/// cell, forces (dem/README.md, Motion).
 ///
-/// The walls hold v^{n-1/2} before and v^{n+1/2} after move_walls, which also moves them to
-/// x^{n+1}; it may set the rate of the cell too.
-/// @param dt_before the step before [s]; the kick uses the mean of both
-/// @throws Unstable naming the particle that moves or turns too far, and as
-///   add_forces(), on all ranks alike
+/// `move_walls` moves the walls to x^{n+1} and sets their velocities from v^{n-1/2} to
+/// v^{n+1/2}; it may also set the strain rate of the cell.
+/// @param dt_before the previous step [s]; the kick uses the mean of both steps
+/// @throws Unstable, on all ranks alike, naming the particle that moves or rotates too far,
+///   and as add_forces()
 template <class MoveWalls>
-void advance(Rock& rock, double dt_before, double dt, MoveWalls&& move_walls);
+void advance(Assembly& assembly, double dt_before, double dt, MoveWalls&& move_walls);
 
-/// The stable step of the rock as it is, walls included [s].
-double stable_time_step(const Rock& rock, double safety);
+/// Stable step of the assembly in its present state, walls included [s].
+double stable_time_step(const Assembly& assembly, double safety);
 
-/// Unbalanced-force ratio of the rock [-].
-double unbalanced_ratio(const Rock& rock);
+/// Unbalanced-force ratio of the assembly [-].
+double unbalanced_ratio(const Assembly& assembly);
 
-/// @throws Unstable naming the particles when two grains overlap by more than half of the
-///   smaller radius
-void check_overlaps(const Rock& rock);
+/// @throws Unstable naming the two particles that overlap by more than half of the smaller
+///   radius
+void check_overlaps(const Assembly& assembly);
 
-/// Power of the wall forces of the last step on the rock, at the present wall velocities
-/// [W].
+/// Power of the wall forces of the last step on the particles, at the present wall
+/// velocities [W].
 struct WallPower {
   double walls = 0.0, pile = 0.0;
 };
-WallPower wall_power(const Rock& rock);
+WallPower wall_power(const Assembly& assembly);
 
-/// Power of a driven cell on the rock, from the virial of the last step at the present rate
-/// [W]; 0 of any other.
-double cell_power(const Rock& rock);
+/// Power of a strain-controlled cell on the particles, from the virial of the last step at
+/// the present strain rate [W]; 0 for any other cell.
+double cell_power(const Assembly& assembly);
 
 template <class MoveWalls>
-void advance(Rock& rock, double dt_before, double dt, MoveWalls&& move_walls)
+void advance(Assembly& assembly, double dt_before, double dt, MoveWalls&& move_walls)
 {
   const double start = wall_clock();
   const double dt_kick = 0.5 * (dt_before + dt);
-  double most = std::numeric_limits<double>::infinity(); // stays so where a fault is met
-  rock.fault.watch(
-      [&] { most = kick_and_drift(rock.particles, rock.motion, dt_kick, dt, rock.work); });
+  double largest_motion =
+      std::numeric_limits<double>::infinity(); // stays infinite after a fault
+  assembly.fault.run([&] {
+    largest_motion =
+        kick_and_drift(assembly.particles, assembly.motion, dt_kick, dt, assembly.work);
+  });
   const double moved = wall_clock();
-  rock.times.motion += moved - start;
-  const double most_of_all = rock.comm.global_max(most);
-  if (std::isinf(most_of_all)) rock.comm.agree_on(rock.fault);
-  rock.list.add_motion(most_of_all);
-  rock.times.exchange += wall_clock() - moved;
+  assembly.times.motion += moved - start;
+  const double global_largest = assembly.comm.global_max(largest_motion);
+  if (std::isinf(global_largest)) assembly.comm.agree_on(assembly.fault);
+  assembly.list.add_motion(global_largest);
+  assembly.times.exchange += wall_clock() - moved;
   // Work of the forces at t^n on the mean motion of the walls around t^n.
-  const WallPower before = wall_power(rock);
-  const double cell_before = cell_power(rock);
+  const WallPower before = wall_power(assembly);
+  const double cell_before = cell_power(assembly);
   move_walls(dt);
-  const WallPower after = wall_power(rock);
-  rock.wall_work.add(0.5 * dt_kick * (before.walls + after.walls));
-  rock.pile_work.add(0.5 * dt_kick * (before.pile + after.pile));
-  if (rock.cell.is_driven) {
-    rock.cell_work.add(0.5 * dt_kick * (cell_before + cell_power(rock)));
-    rock.list.add_strain(strain(rock.cell, dt, rock.particles));
+  const WallPower after = wall_power(assembly);
+  assembly.wall_work.add(0.5 * dt_kick * (before.walls + after.walls));
+  assembly.pile_work.add(0.5 * dt_kick * (before.pile + after.pile));
+  if (assembly.cell.is_strain_controlled) {
+    assembly.cell_work.add(0.5 * dt_kick * (cell_before + cell_power(assembly)));
+    assembly.list.add_strain(strain(assembly.cell, dt, assembly.particles));
   }
-  add_forces(rock, dt);
+  add_forces(assembly, dt);
 }
 
 } // namespace mergel::dem

@@ -15,11 +15,11 @@ void add_spring(StiffnessSums& s, Index i, double k_n, double k_s, double arm, d
   s.k_rot[i] += 2.0 * (k_s * arm * arm + k_b);
 }
 
-/// Bond and contact of one pair, onto both ends.
+/// Add the stiffness of bond and contact of one pair to both particles.
 void add_pair(StiffnessSums& s, const PairMaterials& material, const PeriodicCell& cell,
               const Particles& p, const Pair& q, bool bonded)
 {
-  const Body &i = p.body[q.i], &j = p.body[q.j];
+  const ParticleState &i = p.state[q.i], &j = p.state[q.j];
   const double L = i.R + j.R, r = std::min(i.R, j.R);
   const double gap = (j.x + cell.offset(q.shift) - i.x).norm() - L;
   double k_n = 0.0, k_s = 0.0, k_b = 0.0;
@@ -57,13 +57,13 @@ void add_wall_stiffness(StiffnessSums& s, const BondLaw& bond, const Particles& 
 {
   for (const WallContact& c : wall.contacts) {
     if (c.energy == 0.0) continue;
-    const double R = p.body[c.particle].R;
+    const double R = p.state[c.particle].R;
     const auto k = linear_stiffness(wall.material, R, 1.0 / R);
     add_spring(s, c.particle, k.k_n, k.k_s, R, 0.0);
   }
   for (const WallBond& b : wall.bonds) {
     if (b.state.intact == 0.0) continue;
-    const double R = p.body[b.particle].R;
+    const double R = p.state[b.particle].R;
     const auto k = bond_shape(section(bond), R, 1.0 / R);
     add_spring(s, b.particle, k.k_n, k.k_s, R + std::max(0.0, b.gap_0), 0.0);
   }
@@ -74,7 +74,7 @@ void add_surface_stiffness(StiffnessSums& s, const LinearMaterial& material,
 {
   for (const WallContact& c : contacts.contacts()) {
     if (c.energy == 0.0) continue;
-    const double R = p.body[c.particle].R;
+    const double R = p.state[c.particle].R;
     const auto k = linear_stiffness(material, R, 1.0 / R);
     add_spring(s, c.particle, k.k_n, k.k_s, R, 0.0);
   }
@@ -84,9 +84,9 @@ void add_mirror_stiffness(StiffnessSums& s, const PairMaterials& material,
                           const Particles& p, const Mirror& mirror)
 {
   for (const MirrorPair& m : mirror.pairs) {
-    const Body& b = p.body[m.particle];
+    const ParticleState& b = p.state[m.particle];
     const double gap = 2.0 * (b.x.y() - b.R);
-    // The image is a pair of equal masses like any other.
+    // A particle and its image are a pair of equal masses.
     if (m.bond.intact > 0.0)
       s.k[m.particle] += bond_shape(section(material.bond), b.R, 0.5 / b.R).k_n;
     if (gap < material.contact.g_a * b.S)
@@ -99,9 +99,9 @@ double time_step(const StiffnessSums& s, const Particles& p, double safety,
 {
   double dt2 = std::numeric_limits<double>::infinity();
   p.for_owned([&](Index i) {
-    if (s.k[i] > 0.0) dt2 = std::min(dt2, 2.0 * p.body[i].m / s.k[i]);
+    if (s.k[i] > 0.0) dt2 = std::min(dt2, 2.0 * p.state[i].m / s.k[i]);
     if (s.k_rot[i] > 0.0 && (p.n_bonds[i] > 0 || motion.free_rotation))
-      dt2 = std::min(dt2, 2.0 * p.body[i].inertia() / s.k_rot[i]);
+      dt2 = std::min(dt2, 2.0 * p.state[i].inertia() / s.k_rot[i]);
   });
   return safety * std::sqrt(dt2 / (1.0 + motion.damping));
 }
@@ -110,7 +110,7 @@ ForceSum sum_of_pair_forces(const Particles& p, const PairMaterials& material,
                             const PeriodicCell& cell, const Bonds& bonds,
                             const Contacts& contacts)
 {
-  // Each pair force acts on two particles; a pair belongs to the owner of its first.
+  // Each pair force acts on two particles; the owner of the first particle counts it.
   ForceSum sum;
   const auto contact_force = [&](const Pair& q) {
     return read_contact(q, Vec3::Zero(), p, cell, material.contact).f_n;

@@ -1,4 +1,5 @@
-/// Critical time step from the stiffness that each particle feels.
+/// Stable time step from the stiffness that resists the motion of each particle
+/// (dem/README.md, Time step).
 #pragma once
 
 #include "dem/pairs/forces.h"
@@ -8,6 +9,13 @@
 #include "dem/walls/triangulated.h"
 
 namespace mergel::dem {
+
+/// Share of the critical time step that is used where nothing else is asked for [-].
+inline constexpr double default_safety = 0.7;
+
+/// Steps after which the critical time step, and what else costs more than a step, is
+/// evaluated again.
+inline constexpr std::size_t steps_between_step_checks = 100;
 
 /// Stiffness that resists the motion of each particle.
 struct StiffnessSums {
@@ -19,7 +27,7 @@ StiffnessSums stiffness_sums(const PairMaterials& material, const PeriodicCell& 
                              const Particles& p, const Bonds& bonds,
                              const Contacts& contacts);
 
-/// Walls, image and pile add theirs.
+/// Add the stiffness of a triangulated wall, of a plane or pile, and of the mirror image.
 void add_wall_stiffness(StiffnessSums& s, const BondLaw& bond, const Particles& p,
                         const Wall& wall);
 void add_surface_stiffness(StiffnessSums& s, const LinearMaterial& material,
@@ -29,15 +37,16 @@ void add_mirror_stiffness(StiffnessSums& s, const PairMaterials& material,
 
 /// s min[ sqrt(2 m/sum k), sqrt(2 I_p/sum(2 k_s a^2 + 2 k_b)) ] / sqrt(1 + alpha) [s].
 ///
-/// A pair of masses m on a spring k has omega^2 = 2 k/m at most, stable to 2/omega; local
-/// damping acts as 1 + alpha times the force while it brakes.
-/// Spin counts where the rotation rule lets a particle spin.
-/// Of the owned particles: the least of all ranks is the step.
+/// A pair of masses m on a spring k has omega^2 = 2 k/m at most, and leapfrog is stable to
+/// 2/omega. Local damping acts as 1 + alpha times the force while it brakes. The rotational
+/// term counts for particles that may spin (dem/README.md, Motion).
+/// Minimum over the owned particles; the step is the global min of it.
 /// @param safety in (0, 1]
 double time_step(const StiffnessSums& s, const Particles& p, double safety,
                  const Motion& motion);
 
-/// Over owned particles, the magnitudes of the pair forces on them [N].
+/// Sum of the magnitudes of the pair forces, each counted for both particles [N]. Pairs
+/// whose first particle is owned.
 ForceSum sum_of_pair_forces(const Particles& p, const PairMaterials& material,
                             const PeriodicCell& cell, const Bonds& bonds,
                             const Contacts& contacts);

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double atmosphere = 101325.0; ///< [Pa]
 
-/// Share of the way from a to b at which zero lies; a and b have different signs, or a is 0.
+/// Fraction between a and b at which the linear function from a to b is zero; a and b have
+/// different signs, or a is 0.
 double crossing(double a, double b)
 {
   return a == b ? 0.0 : a / (a - b);
@@ -40,7 +41,7 @@ std::optional<CurvePoint> offset_yield(const Curve& c, double modulus, double of
 {
   const auto base = stress_at(c, from);
   if (!base) return {};
-  const auto above = [&](std::size_t k) { // of the curve over the moved line [Pa]
+  const auto above = [&](std::size_t k) { // stress of the curve minus the line [Pa]
     return c.stress[k] - (*base + modulus * (c.strain[k] - from - offset));
   };
   for (std::size_t k = 1; k < c.strain.size(); ++k) {

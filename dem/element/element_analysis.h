@@ -1,4 +1,5 @@
-/// What an engineer reads off the curves of an element test. Compression positive.
+/// Moduli, strengths and critical states from the curves of an element test. Compression
+/// positive.
 #pragma once
 
 #include "dem/notation.h"
@@ -17,36 +18,36 @@ struct CurvePoint {
   double strain, stress;
 };
 
-/// Stress where the strain first passes `strain`, linear between records; none if the curve
-/// does not get there.
+/// Stress at which the strain first passes `strain`, linear between records; none if the
+/// curve does not reach it.
 std::optional<double> stress_at(const Curve& c, double strain);
 
 /// Slope of the secant between two strains, from < to: a modulus if the stress is one
 /// [Pa], Poisson's ratio if it is a lateral extension [-].
 std::optional<double> secant(const Curve& c, double from, double to);
 
-/// Where the curve first falls below the line of slope `modulus` that is moved by `offset`
-/// to larger strains: offset yield strength, ASTM E8/E8M, as used for the yield of
-/// bonded soils in isotropic, oedometer and triaxial compression by Leroueil and Vaughan
-/// (1990), Geotechnique 40, 467. The line starts at the secant's own point: (from,
-/// stress there), so that a bedding error before it does not count.
+/// Offset yield strength: point at which the curve first falls below the line of slope
+/// `modulus` that is moved by `offset` to larger strains. ASTM E8/E8M, as used for the
+/// yield of bonded soils in isotropic, oedometer and triaxial compression by Leroueil and
+/// Vaughan (1990), Geotechnique 40, 467. The line starts at the first point of the secant,
+/// (from, stress there), so that a bedding error before it does not count.
 std::optional<CurvePoint> offset_yield(const Curve& c, double modulus, double offset,
                                        double from);
 
-/// Greatest stress, the first of equals; the curve has one point at least.
+/// Largest stress, the first of equals. @pre the curve has a point
 CurvePoint peak(const Curve& c);
 
-/// Least stress after the peak; the peak itself if that is the end.
+/// Smallest stress after the peak; the peak itself if the curve ends there.
 CurvePoint minimum_after_peak(const Curve& c);
 
-/// The first peak from which the stress falls by more than this share of it before it rises
-/// above it: the collapse of a bonded rock that later hardens on.
+/// The first peak from which the stress falls by more than this share of the peak before it
+/// rises above it again: collapse of a bonded rock that hardens later.
 std::optional<CurvePoint> first_collapse(const Curve& c, double share);
 
-/// Angle of Mohr and Coulomb without cohesion that a state mobilises [rad]:
-/// sin phi = (sigma_1 - sigma_3)/(sigma_1 + sigma_3), of the stresses along the axes, any
-/// order. In triaxial compression that is 3 eta/(6 + eta), eta = q/p.
-/// @pre the largest and the least have a positive sum
+/// Mobilised friction angle of Mohr and Coulomb without cohesion [rad]: sin phi = (sigma_1
+/// - sigma_3)/(sigma_1 + sigma_3), from the stresses along the axes, in any order. In
+/// triaxial compression sin phi = 3 eta/(6 + eta), eta = q/p.
+/// @pre the largest and the smallest stress have a positive sum
 double friction_angle(const Vec3& stress);
 
 struct StraightLine {
@@ -54,11 +55,11 @@ struct StraightLine {
   double R2; ///< share of the variance of y that the line explains [-]
 };
 
-/// Least squares; none for less than two different x.
+/// Least-squares line; none for fewer than two different x.
 std::optional<StraightLine> fit_line(const std::vector<double>& x,
                                      const std::vector<double>& y);
 
-/// State of a rock that is sheared on without a change.
+/// Critical state: shear at constant stress and volume.
 struct CriticalState {
   double p, q, e;
 };

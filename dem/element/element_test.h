@@ -1,4 +1,4 @@
-/// An element test: a periodic cell taken through loading stages, and what is recorded of it.
+/// An element test: a periodic cell under loading stages, and its records.
 #pragma once
 
 #include "dem/assembly/averages.h"
@@ -9,75 +9,75 @@
 
 namespace mergel::dem {
 
-/// How the test is controlled.
+/// Control of a test.
 struct ElementControl {
-  std::vector<Leg> legs;
-  double inertial_number = 5e-4;   ///< of the driven strain [-]
-  double reference_pressure = 1e6; ///< below it the inertial number counts with this [Pa]
+  std::vector<LoadingStage> stages;
+  double inertial_number = 5e-4;   ///< of the controlled strain [-]
+  double reference_pressure = 1e6; ///< smallest |p| in the inertial number [Pa]
   double strain_limit = 0.5;       ///< of the test [-]
-  double reversal = 0.5;           ///< of the way made towards a goal [-]
-  double damping = 0.7;            ///< local damping alpha [-], in [0, 1)
-  double safety = 0.7;             ///< of the time step [-], in (0, 1]
-  bool free_rotation = false;      ///< of particles without a bond
-  double record_every = 2e-4;      ///< strain [-]
+  double reversal = 0.5;           ///< share of its progress by which a stress may fall [-]
+  double damping = default_damping; ///< local damping alpha [-], in [0, 1)
+  double safety = default_safety;   ///< of the time step [-], in (0, 1]
+  bool free_rotation = false;       ///< of particles without a bond
+  double record_every = 2e-4;       ///< strain [-]
 };
 
-/// Particles of a periodic cell and what is bonded.
+/// Particles of a periodic cell and their bonded pairs.
 struct PeriodicSpecimen {
   Particles particles;
   PeriodicCell cell;
   std::vector<Pair> bonded;
 };
 
-/// How a leg, or the test, came to its end.
+/// Outcome of a stage, or of the test.
 enum class Outcome {
   goes_on,      ///< not yet
-  done,         ///< the goal was reached
-  pulled_apart, ///< the specimen failed in tension: nothing is left to pull at
-  reversed,     ///< the stress fell back on its way: the path met an unstable point
-  gave_up,      ///< the strain limit came first
-  broke_off     ///< the run went unstable and stopped
+  done,         ///< the target was reached
+  pulled_apart, ///< the specimen failed in tension
+  reversed,     ///< the stress fell back before the target: unstable point of the path
+  strain_limit_reached, ///< the strain limit was reached first
+  unstable              ///< the run went unstable and stopped
 };
 std::string sentence_of(Outcome outcome);
 
-/// All that changes in a run: plain state.
+/// Everything that changes during a run: plain data.
 struct ElementState {
-  Rock rock;
+  Assembly assembly;
   Servo servo;
-  Course course;
-  Vec3 size_0 = Vec3::Zero();       ///< edges before the first leg [m]
+  ActiveStage active;
+  Vec3 size_0 = Vec3::Zero();       ///< edges before the first stage [m]
   double dt = 0.0, dt_before = 0.0; ///< [s]
   double time = 0.0;                ///< [s]
-  std::size_t leg = 0;              ///< from 0
-  std::size_t n_steps = 0, n_in_leg = 0;
-  double since_record = 0.0; ///< driven strain [-]
-  std::size_t n_held = 0;    ///< steps in which all is held before the leg is driven
-  double farthest = 0.0;     ///< greatest progress of the leg [-]
-  double tension = 0.0;      ///< greatest tension along the driven axis in the leg [Pa]
-  Vec3 stress_sum = Vec3::Zero(); ///< of the steps since the last record [Pa]
-  Vec3 held_sum = Vec3::Zero();   ///< what held axes should bear, the same way [Pa]
-  std::size_t n_stress = 0;
-  double gross_work = 0.0; ///< of the cell, by its magnitude from record to record [J]
-  double last_work = 0.0;  ///< of the cell at the last record [J]
-  EnergyBook start;        ///< before the first leg
-  Vec3 stiffness_0 = Vec3::Zero(); ///< affine, before the first leg [Pa]
-  double greatest_rate = 0.0;      ///< of the driven strain [1/s]
+  std::size_t stage = 0;            ///< from 0
+  std::size_t n_steps = 0, n_in_stage = 0;
+  double since_record = 0.0;     ///< controlled strain [-]
+  std::size_t n_held = 0;        ///< steps held at the end of an approach
+  double largest_progress = 0.0; ///< largest progress of the stage [-]
+  double tension = 0.0; ///< largest tension of the controlled axis in the stage [Pa]
+  Vec3 stress_sum = Vec3::Zero();  ///< over the steps since the last record [Pa]
+  Vec3 held_sum = Vec3::Zero();    ///< of the stresses to hold, over the same steps [Pa]
+  std::size_t n_stress = 0;        ///< number of these steps
+  double gross_work = 0.0;         ///< of the cell: sum of |work| from record to record [J]
+  double last_work = 0.0;          ///< of the cell at the last record [J]
+  EnergyBalance start;             ///< before the first stage
+  Vec3 stiffness_0 = Vec3::Zero(); ///< affine, before the first stage [Pa]
+  double largest_rate = 0.0;       ///< of the controlled strain [1/s]
   double mean_diameter = 0.0;      ///< by mass [m]
-  double density = 0.0;            ///< of the grains [kg/m^3]
+  double density = 0.0;            ///< of the particles [kg/m^3]
 };
 
 /// One line of history.csv; stresses and strains compression positive.
 struct ElementRecord {
   double time = 0.0;
-  std::size_t leg = 0; ///< from 0
-  SoilState whole;     ///< strains from the start of the test
-  SoilState of_leg;    ///< strains from the start of the leg, or of that which it resumes
-  bool is_approach = false;   ///< before the leg is driven; its strains count from later on
-  double driven_strain = 0.0; ///< of the leg: axial, lateral or volumetric [-]
+  std::size_t stage = 0; ///< from 0
+  SoilState whole;       ///< strains from the start of the test
+  SoilState of_stage; ///< strains from the start of the stage, or of the stage it resumes
+  bool is_approach = false; ///< during an approach; strains of the stage count from its end
+  double controlled_strain = 0.0; ///< of the stage: axial, lateral or volumetric [-]
   CellAverages averages;
   std::size_t broken = 0;
   std::array<std::size_t, n_break_modes> broken_by{};
-  EnergyBook book;
+  EnergyBalance balance;
   double energy_error = 0.0; ///< share of the gross work [-]
   double inertial_number = 0.0, unbalanced = 0.0;
 };
@@ -86,50 +86,52 @@ class ElementTest {
 public:
   /// Collective, as is all below.
   /// @param control must outlive the test
-  /// @throws InputError when nothing touches and nothing is bonded
+  /// @throws InputError when no particles touch and none are bonded
   ElementTest(const ElementControl& control, PeriodicSpecimen specimen,
               const PairMaterials& materials, MPI_Comm comm);
 
-  /// Resume from a state in the middle of a leg, the rock of which this rank holds whole;
-  /// its lists are made anew.
+  /// Resume from a state within a stage. On every rank its assembly must be a gathered one;
+  /// lists are rebuilt.
   ElementTest(const ElementControl& control, ElementState state, MPI_Comm comm);
 
-  /// Set out on the leg of this number. Stresses that it holds may be elsewhere: the steps
-  /// then bring them there first, at the rate of the test, while is_approaching(); strains
-  /// of the leg count from the end of that.
-  void set_out(std::size_t leg);
-  bool is_approaching() const { return state_.course.is_approaching; }
+  /// Begin the stage with this number. If stresses differ from those that the stage is to
+  /// hold, the next steps are an approach: is_approaching(). It brings them there at the
+  /// rate of the test. Strains of the stage count from the end of the approach.
+  void begin_stage(std::size_t stage);
+  bool is_approaching() const { return state_.active.is_approaching; }
   /// One step. @throws Unstable naming what went wrong, the step and the time
   void step();
-  /// Re-evaluate the critical step; lower the time step if it fell. Collective.
+  /// Compute the stable step; lower the time step if the stable step is smaller.
+  /// Collective.
   void lower_time_step();
-  /// Whether the leg's goal is met, the rock failed, or it goes on. Failure is looked for
-  /// when a record is due, in means over the steps since the last.
+  /// Whether the stage has reached its target, the specimen has failed, or the stage goes
+  /// on. Failure is checked when a record is due, in means over the steps since the last
+  /// record.
   Outcome outcome() const;
   bool record_is_due() const { return state_.since_record >= control_.record_every; }
-  /// The state in numbers, and a new start of all means. @throws Unstable when the energy book
-  /// does not close
+  /// Record of the present state; all means start again.
+  /// @throws Unstable when the energy balance leaves more than 1 % unexplained
   ElementRecord record();
 
   const ElementState& state() const { return state_; }
-  Rock& rock() { return state_.rock; } ///< to be brought together, not to be changed
-  double progress() const { return state_.farthest; }
+  Assembly& assembly() { return state_.assembly; } ///< to be gathered, not to be changed
+  double progress() const { return state_.largest_progress; }
 
 private:
-  SoilState soil(const Vec3& sigma) const; ///< strains of the leg
+  SoilState soil(const Vec3& sigma) const; ///< strains of the stage
   void approach(double rate);
   void step_unguarded();
   bool is_pulled_apart() const;
   Vec3 stress() const;
   Vec3 mean_stress() const;
-  double driven_rate(const SoilState& now) const;
-  void look_at_stiffness();
+  double controlled_rate(const SoilState& now) const;
+  void update_stiffness();
 
   const ElementControl& control_;
   ElementState state_;
 };
 
-/// Margin of the lists at S = 1 [m]: usual_skin of the smallest particle.
+/// Skin of the lists at S = 1 [m]: usual_skin times the smallest diameter at S = 1.
 double list_skin(const Particles& p);
 
 } // namespace mergel::dem

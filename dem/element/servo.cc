@@ -4,12 +4,12 @@
 
 namespace mergel::dem {
 
-Vec3 Servo::rates(const CellOrder& order, const Vec3& stress, double dt)
+Vec3 Servo::rates(const CellControl& control, const Vec3& stress, double dt)
 {
   const double tau = steps * dt, tau_i = 4.0 * tau;
   Vec3 rate;
   for (int a = 0; a < 3; ++a) {
-    const AxisOrder& axis = order[static_cast<std::size_t>(a)];
+    const AxisControl& axis = control[static_cast<std::size_t>(a)];
     if (!axis.holds_stress) {
       rate[a] = axis.rate;
       integral[a] = 0.0;

@@ -1,4 +1,5 @@
-/// Paths in stress and strain along which a driven cell is led, leg by leg.
+/// Loading stages of an element test: paths of a strain-controlled cell in stress and
+/// strain (dem/README.md, Element tests; apps/element/README.md, Loading stages).
 ///
 /// Here, as in soil mechanics, compression is positive. The axis is z; x and y are lateral.
 #pragma once
@@ -7,7 +8,7 @@
 
 namespace mergel::dem {
 
-/// A cell as an element test sees it, along x, y, z. Strains are engineering strains.
+/// Stress and strain of a cell along x, y, z. Strains are engineering strains.
 struct SoilState {
   Vec3 stress = Vec3::Zero(); ///< [Pa]
   Vec3 strain = Vec3::Zero(); ///< [-]
@@ -33,7 +34,7 @@ enum class PathKind {
   compression, ///< uniaxial: lateral stress 0
   tension,     ///< the same, pulled
   axes,        ///< each axis by its own rule
-  resume       ///< as the leg before, the way that the goal lies: unloading and reloading
+  resume ///< path of the previous stage, towards the new target: unloading and reloading
 };
 
 enum class Quantity {
@@ -47,86 +48,90 @@ enum class Quantity {
   x_strain,
   y_strain,
   volumetric_strain,
-  driven_stress ///< where the leg before was taken up, see Leg::returns
+  controlled_stress ///< stress of the controlled axes; target of LoadingStage::returns
 };
 
 /// Value of a quantity [Pa] or [-].
 double value_of(Quantity quantity, const SoilState& s);
 bool is_strain(Quantity quantity);
 
-/// What one axis of a leg of kind `axes` does: one axis is driven, the others are fixed
-/// (no strain) or hold a stress.
+/// Rule of one axis in a stage of kind `axes`: one axis is strain-controlled, the others
+/// are fixed (no strain) or hold a stress.
 struct AxisRule {
-  enum class Kind { driven, fixed, held };
+  enum class Kind { strain_controlled, fixed, stress_controlled };
   Kind kind = Kind::fixed;
   double stress = 0.0; ///< held [Pa]
 
   bool operator==(const AxisRule&) const = default;
 };
 
-/// One leg of a path and where it ends.
-struct Leg {
+/// One loading stage and its target.
+struct LoadingStage {
   PathKind kind = PathKind::isotropic;
   double slope = 0.0;             ///< radial: dq/dp [-]; infinite for constant p
   bool has_lateral = false;       ///< triaxial: lateral stress is given
-  double lateral = 0.0;           ///< then [Pa]; else it stays what it was
+  double lateral = 0.0;           ///< lateral stress [Pa]; if not given it stays as it is
   std::array<AxisRule, 3> axes{}; ///< of kind `axes`: x, y, z
   Quantity quantity = Quantity::p;
-  double goal = 0.0;    ///< of `quantity`; strains count from the start of the leg
-  bool returns = false; ///< resume: back to the stress at which the last leg began
+  double target = 0.0;  ///< of `quantity`; strains count from the start of the stage
+  bool returns = false; ///< resume: back to the stress at the start of the previous stage
 
-  /// @throws InputError when the leg cannot reach its goal by its kind
+  /// @throws InputError when a stage of this kind cannot reach its target
   void check() const;
-  /// The same of a leg that resumes another, which is not itself a resuming one.
-  void check_after(const Leg& resumed) const;
+  /// The same for a stage that resumes another one, which is not of kind `resume` itself.
+  void check_after(const LoadingStage& resumed) const;
 
-  bool operator==(const Leg&) const = default;
+  bool operator==(const LoadingStage&) const = default;
 };
 
-/// A leg being followed: plain state.
+/// State of the stage that is being run: plain data.
 ///
-/// One stress is driven by a strain rate, the axial one if possible; the others follow it,
-/// held = at_zero + slope * driven, or as their own rules say. Where they start away from
-/// what they shall hold, they are brought there first: see `offset`.
-struct Course {
-  enum class Drive { all, axial, lateral, x, y };
+/// One axis is strain-controlled, z if possible, or several together. The other axes hold a
+/// stress that follows the controlled stress, held = at_zero + slope * controlled stress,
+/// or their own rules. If the stresses differ from these values at the start, an approach
+/// brings them there first: see `offset`.
+struct ActiveStage {
+  enum class Controlled { all, axial, lateral, x, y };
   enum class Follow { mean, nothing, line, each }; ///< isotropic; oedometer; others; axes
 
-  Drive drive = Drive::axial;
+  Controlled controlled = Controlled::axial;
   Follow follow = Follow::line;
   double at_zero = 0.0, slope = 0.0; ///< of the line [Pa], [-]
   std::array<AxisRule, 3> rules{};   ///< of Follow::each
-  double direction = 1.0;            ///< of the driven strain: 1 compression, -1 extension
-  double goal = 0.0;
+  double direction = 1.0; ///< of the controlled strain: 1 compression, -1 extension
+  double target = 0.0;
   Quantity quantity = Quantity::p;
-  double driven_at_start = 0.0;  ///< stress [Pa]
-  double strain_at_start = 0.0;  ///< driven [-], from size_0
-  double value_at_start = 0.0;   ///< of the quantity of the goal
-  bool returns = false;          ///< to where the leg before began, see `strain_to_return`
-  double strain_to_return = 0.0; ///< at which a return ends at the latest [-]
-  Vec3 size_0 = Vec3::Zero();    ///< from which the strains of the leg count [m]
-  /// Stress of the axes over what they shall hold when the leg is set out on [Pa]; 0 of
-  /// those that hold none. In an approach `remaining` of it is held on top, and the driven
-  /// axes hold the stress that they have.
+  double controlled_stress_at_start = 0.0; ///< [Pa]
+  double strain_at_start = 0.0;            ///< controlled strain [-], from size_0
+  double value_at_start = 0.0;             ///< of the quantity of the target
+  bool returns = false; ///< to the start of the previous stage, see `strain_to_return`
+  double strain_to_return = 0.0; ///< controlled strain that ends a return at the latest [-]
+  Vec3 size_0 = Vec3::Zero();    ///< from which the strains of the stage count [m]
+  /// Stress of each axis minus the stress that it is to hold, at the start of the stage
+  /// [Pa]; 0 for axes that hold none. During an approach the share `remaining` of it is
+  /// added to the stresses to hold, and the strain-controlled axes hold their stress at the
+  /// start.
   Vec3 offset = Vec3::Zero();
   bool is_approaching = false;
   double remaining = 1.0; ///< share of `offset` [-]
 
-  double driven(const SoilState& s) const;        ///< stress [Pa]
-  double driven_strain(const SoilState& s) const; ///< volumetric where all are driven [-]
-  /// A return also ends where the strain is back at which it was left: a rock that broke on
-  /// the way does not bear that stress again.
-  bool has_reached_goal(const SoilState& s) const;
-  /// How far the goal's quantity came, 0 at the start to 1.
+  /// Stress of the strain-controlled axes: p if all are, lateral if x and y are [Pa].
+  double controlled_stress(const SoilState& s) const;
+  /// Their strain: volumetric if all axes are strain-controlled [-].
+  double controlled_strain(const SoilState& s) const;
+  /// A return also ends at the strain at which the previous stage began: a specimen that
+  /// broke since then does not bear that stress again.
+  bool has_reached_target(const SoilState& s) const;
+  /// Progress of the target's quantity: 0 at the start, 1 at the target.
   double progress(const SoilState& s) const;
-  /// For the next step, with driven rates of this norm [1/s].
-  CellOrder order(const SoilState& s, double rate) const;
+  /// Control of the next step, with controlled strain rates of this norm [1/s].
+  CellControl control(const SoilState& s, double rate) const;
 };
 
-/// Set out on a leg from where the cell is.
-/// @param now   strains count from before.size_0; they are read where the leg resumes
-/// @param before the leg before; a default one in the beginning
-Course set_out(const Leg& leg, const Course& before, const SoilState& now,
-               const Vec3& size);
+/// Begin a stage at the present state of the cell.
+/// @param now   strains count from before.size_0; they are used only if the stage resumes
+/// @param before the previous stage; a default one for the first stage
+ActiveStage begin_stage(const LoadingStage& stage, const ActiveStage& before,
+                        const SoilState& now, const Vec3& size);
 
 } // namespace mergel::dem

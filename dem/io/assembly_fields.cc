@@ -16,19 +16,20 @@ Field vector(const std::string& name, std::size_t n)
   return {name, 3, std::vector<double>(3 * n)};
 }
 
-void put(Field& f, std::size_t k, const Vec3& a)
+void set_vector(Field& f, std::size_t k, const Vec3& a)
 {
   for (std::size_t c = 0; c < 3; ++c) f.values[3 * k + c] = a[static_cast<Eigen::Index>(c)];
 }
 
 } // namespace
 
-std::vector<double> particle_damage(const Rock& rock)
+std::vector<double> particle_damage(const Assembly& assembly)
 {
-  std::vector<double> sum(rock.particles.size(), 0.0), count(rock.particles.size(), 0.0);
-  for (std::size_t b = 0; b < rock.bonds.size(); ++b)
-    for (const Index p : {rock.bonds.pairs[b].i, rock.bonds.pairs[b].j}) {
-      sum[p] += 1.0 - rock.bonds.intact(b);
+  std::vector<double> sum(assembly.particles.size(), 0.0),
+      count(assembly.particles.size(), 0.0);
+  for (std::size_t b = 0; b < assembly.bonds.size(); ++b)
+    for (const Index p : {assembly.bonds.pairs[b].i, assembly.bonds.pairs[b].j}) {
+      sum[p] += 1.0 - assembly.bonds.intact(b);
       count[p] += 1.0;
     }
   for (std::size_t p = 0; p < sum.size(); ++p)
@@ -36,10 +37,10 @@ std::vector<double> particle_damage(const Rock& rock)
   return sum;
 }
 
-void write_particles(const std::filesystem::path& file, const Rock& rock,
+void write_particles(const std::filesystem::path& file, const Assembly& assembly,
                      const std::vector<Vec3>& x_0, const std::vector<Field>& more)
 {
-  const Particles& p = rock.particles;
+  const Particles& p = assembly.particles;
   const std::size_t n = p.n_owned();
   std::vector<Vec3> x;
   Field radius = scalar("radius", std::vector<double>(n)),
@@ -47,45 +48,45 @@ void write_particles(const std::filesystem::path& file, const Rock& rock,
   Field velocity = vector("velocity", n), force = vector("force", n),
         displacement = vector("displacement", n);
   for (std::size_t k = 0; k < n; ++k) {
-    const Body& b = p.body[k];
+    const ParticleState& b = p.state[k];
     x.push_back(b.x);
     radius.values[k] = b.R;
     S.values[k] = b.S;
     id.values[k] = static_cast<double>(p.id[k]);
-    put(velocity, k, b.v);
-    put(force, k, p.load[k].f);
-    put(displacement, k, b.x - x_0[k]);
+    set_vector(velocity, k, b.v);
+    set_vector(force, k, p.load[k].f);
+    set_vector(displacement, k, b.x - x_0[k]);
   }
-  std::vector<Field> fields{radius,      velocity, scalar("damage", particle_damage(rock)),
-                            force,       S,        id,
-                            displacement};
+  std::vector<Field> fields{
+      radius, velocity,    scalar("damage", particle_damage(assembly)), force, S,
+      id,     displacement};
   if (!p.strength.empty()) fields.push_back(scalar("strength", p.strength));
   fields.insert(fields.end(), more.begin(), more.end());
   write_points(file, x, fields);
 }
 
-void write_bonds(const std::filesystem::path& file, const Rock& rock)
+void write_bonds(const std::filesystem::path& file, const Assembly& assembly)
 {
-  const std::size_t n = rock.bonds.size();
+  const std::size_t n = assembly.bonds.size();
   std::vector<Vec3> x;
-  for (const Body& b : rock.particles.body) x.push_back(b.x);
+  for (const ParticleState& b : assembly.particles.state) x.push_back(b.x);
   std::vector<std::array<Index, 2>> lines;
   Field N = scalar("N", std::vector<double>(n)), D = scalar("D", std::vector<double>(n));
   Field V = vector("V", n), M = vector("M", n), T = scalar("T", std::vector<double>(n));
   for (std::size_t b = 0; b < n; ++b) {
-    const Pair& q = rock.bonds.pairs[b];
+    const Pair& q = assembly.bonds.pairs[b];
     Index end = q.j;
-    if (q.shift != Shift{}) { // the line ends at the image, it does not cross the cell
+    if (q.shift != Shift{}) { // the line ends at the image instead of crossing the cell
       end = static_cast<Index>(x.size());
-      x.push_back(rock.particles.body[q.j].x + rock.cell.offset(q.shift));
+      x.push_back(assembly.particles.state[q.j].x + assembly.cell.offset(q.shift));
     }
     lines.push_back({q.i, end});
-    const BondReading r =
-        read_bond(rock.bonds, b, rock.particles, rock.cell, rock.material.bond);
+    const BondReading r = read_bond(assembly.bonds, b, assembly.particles, assembly.cell,
+                                    assembly.material.bond);
     N.values[b] = r.N;
     D.values[b] = r.D;
-    put(V, b, r.V);
-    put(M, b, r.M);
+    set_vector(V, b, r.V);
+    set_vector(M, b, r.M);
     T.values[b] = r.T;
   }
   write_lines(file, x, lines, {N, V, M, T, D});
@@ -93,7 +94,7 @@ void write_bonds(const std::filesystem::path& file, const Rock& rock)
 
 void write_pile(const std::filesystem::path& file, const Pile& pile, double z_top)
 {
-  constexpr int n_around = 48; // facets of 3.75 degrees over the half
+  constexpr int n_around = 48; // facets of 3.75 degrees over the half circle
   std::vector<Vec3> x{{pile.x_axis, pile.y_axis, pile.z_tip}};
   std::vector<std::array<Index, 3>> triangles;
   const double top = std::max(z_top, pile.z_shoulder());
@@ -107,7 +108,7 @@ void write_pile(const std::filesystem::path& file, const Pile& pile, double z_to
   const auto last = static_cast<Index>(x.size());
   x.push_back({pile.x_axis, pile.y_axis, top});
   for (Index k = 0; k < n_around; ++k) {
-    const Index a = 1 + 2 * k, b = a + 2; // shoulder here and next, their tops one further
+    const Index a = 1 + 2 * k, b = a + 2; // shoulder points; a + 1 and b + 1 are the tops
     triangles.push_back({0, a, b});
     triangles.push_back({a, b + 1, b});
     triangles.push_back({a, a + 1, b + 1});

@@ -1,4 +1,4 @@
-/// The rock as ParaView sees it.
+/// Fields of an assembly for ParaView (dem/README.md, Output).
 #pragma once
 
 #include "dem/assembly/step.h"
@@ -6,21 +6,21 @@
 
 namespace mergel::dem {
 
-/// Points with radius [m], velocity [m/s], damage (mean over the bonds that the particle
-/// was given; 0 without) [-], force (resultant of contacts and bonds, without gravity) [N], S
-/// [-], id, displacement from x_0 [m] and, where they vary, the factor of bond strengths [-]; then
-/// `more`.
-void write_particles(const std::filesystem::path& file, const Rock& rock,
+/// Particles as points with radius [m], velocity [m/s], damage (mean over the particle's
+/// bonds, broken ones included; 0 without bonds) [-], force (resultant of contacts and
+/// bonds, without gravity) [N], S [-], id, displacement from x_0 [m] and, if strengths
+/// vary, the factor of the bond strengths [-]; then the fields of `more`.
+void write_particles(const std::filesystem::path& file, const Assembly& assembly,
                      const std::vector<Vec3>& x_0, const std::vector<Field>& more = {});
 
 /// Lines between particles that were ever bonded, with N (tension positive) [N], V [N], M
 /// [N m] and D. A bond through a periodic face ends at the image of its second particle.
-void write_bonds(const std::filesystem::path& file, const Rock& rock);
+void write_bonds(const std::filesystem::path& file, const Assembly& assembly);
 
 /// The half of the pile at y >= 0, up to z_top [m].
 void write_pile(const std::filesystem::path& file, const Pile& pile, double z_top);
 
-/// Mean damage of the bonds that each particle was given.
-std::vector<double> particle_damage(const Rock& rock);
+/// Mean damage of the bonds of each particle, broken ones included [-].
+std::vector<double> particle_damage(const Assembly& assembly);
 
 } // namespace mergel::dem

@@ -25,8 +25,7 @@ namespace {
       "and quota of the disk.");
 }
 
-/// An open file that is closed on every way out; errors carry the name `file`, not the
-/// temporary one.
+/// An open file, closed by the destructor; errors name `file`, not the temporary name.
 class Descriptor {
 public:
   Descriptor(const fs::path& path, int flags, const fs::path& file)
@@ -51,10 +50,12 @@ public:
     }
   }
 
-  /// Delayed writes fail here or nowhere: some file systems report a full disk only now.
+  /// The last chance to detect a failed write: some file systems report a full disk only
+  /// now.
   void flush_and_close()
   {
-    if (::fsync(number_) != 0 && errno != EINVAL) fail(file_); // EINVAL: cannot be flushed
+    // EINVAL: this kind of file cannot be flushed.
+    if (::fsync(number_) != 0 && errno != EINVAL) fail(file_);
     const int number = number_;
     number_ = -1;
     if (::close(number) != 0) fail(file_);
@@ -66,12 +67,12 @@ private:
 };
 
 /// Removes the temporary file, unless it has been renamed.
-class Leftover {
+class TemporaryFileGuard {
 public:
-  explicit Leftover(fs::path path) : path_(std::move(path)) {}
-  Leftover(const Leftover&) = delete;
-  Leftover& operator=(const Leftover&) = delete;
-  ~Leftover()
+  explicit TemporaryFileGuard(fs::path path) : path_(std::move(path)) {}
+  TemporaryFileGuard(const TemporaryFileGuard&) = delete;
+  TemporaryFileGuard& operator=(const TemporaryFileGuard&) = delete;
+  ~TemporaryFileGuard()
   {
     std::error_code ignored;
     fs::remove(path_, ignored);
@@ -95,11 +96,11 @@ fs::path temporary_name(const fs::path& file)
 void replace_file(const fs::path& file, const std::function<void(const fs::path&)>& write)
 {
   const fs::path temporary = temporary_name(file);
-  const Leftover leftover(temporary);
+  const TemporaryFileGuard leftover(temporary);
   write(temporary);
   Descriptor(temporary, O_RDONLY, file).flush_and_close();
   if (::rename(temporary.c_str(), file.c_str()) != 0) fail(file);
-  // The new name is on the disk only when its folder is.
+  // The new name is on the disk only after its folder is flushed.
   const fs::path folder = file.parent_path().empty() ? "." : file.parent_path();
   Descriptor(folder, O_RDONLY | O_DIRECTORY, file).flush_and_close();
 }

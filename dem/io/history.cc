@@ -16,7 +16,7 @@ namespace mergel::dem {
 
 namespace {
 
-/// The beginning of a history, as far as the mark.
+/// The part of a history before the mark.
 std::string begun(const std::filesystem::path& file, const HistoryMark& mark)
 {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
@@ -63,7 +63,7 @@ History::History(std::filesystem::path file, const std::vector<std::string>& col
 
 void History::open(std::ios::openmode mode)
 {
-  errno = 0; // some failures of a stream have no reason of the system's
+  errno = 0; // some failures of a stream do not set it
   out_.open(file_, std::ios::binary | std::ios::out | mode);
   if (out_) return;
   const std::string reason = errno == 0 ? "" : std::generic_category().message(errno);
@@ -102,7 +102,7 @@ HistoryMark History::mark() const
   const std::string reason = std::generic_category().message(errno);
   if (number >= 0) ::close(number);
   if (failed)
-    throw NumericalError(file_.string() + ": cannot be brought to the disk: " + reason);
+    throw NumericalError(file_.string() + ": cannot be flushed to the disk: " + reason);
   return mark_;
 }
 

@@ -1,4 +1,4 @@
-/// history.csv: one flushed line a record, header with names and units.
+/// history.csv: one flushed line per record; the header has names and units.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,7 @@
 
 namespace mergel::dem {
 
-/// How far a history had come: so many bytes, and the sum of these (fnv_1a() of
-/// dem/io/seal.h).
+/// Position in a history: number of bytes, and their checksum (fnv_1a() of dem/io/seal.h).
 struct HistoryMark {
   std::uint64_t bytes = 0, sum = 0;
 };
@@ -21,9 +20,9 @@ public:
   /// @throws NumericalError with the system's reason when the file cannot be written
   History(std::filesystem::path file, const std::vector<std::string>& columns);
 
-  /// Go on where `earlier`, which may be `file` itself, stood at the mark: what it holds
-  /// beyond is left out. `file` is replaced whole.
-  /// @throws InputError when `earlier` does not begin as it did at the mark
+  /// Continue the history `earlier`, which may be `file` itself, from the mark; later lines
+  /// are dropped. `file` is replaced atomically.
+  /// @throws InputError when `earlier` differs before the mark
   History(std::filesystem::path file, const std::vector<std::string>& columns,
           const std::filesystem::path& earlier, const HistoryMark& mark);
 
@@ -32,7 +31,7 @@ public:
   ///   the disk is full
   void add(const std::vector<double>& values);
 
-  /// Bring all lines to the disk, and say how far they go.
+  /// Flush all lines to the disk and return the position.
   HistoryMark mark() const;
 
 private:
@@ -45,7 +44,7 @@ private:
   HistoryMark mark_;
 };
 
-/// @throws InputError, naming the file, when it does not begin as it did at the mark
+/// @throws InputError, naming the file, when it differs before the mark
 void check_history(const std::filesystem::path& file, const HistoryMark& mark);
 
 } // namespace mergel::dem

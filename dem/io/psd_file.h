@@ -1,5 +1,5 @@
-/// Sieve curves in a text file: a table with the columns `diameter [mm]` and `passing [%]`, the
-/// share by mass below that diameter.
+/// Sieve curves in a text file: a table with the columns `diameter [mm]` and `passing [%]`,
+/// the share by mass below that diameter.
 #pragma once
 
 #include "dem/specimen/psd.h"
@@ -8,7 +8,7 @@
 
 namespace mergel::dem {
 
-/// Diameters ascend; passing goes from 0 to 100 and never falls.
+/// Diameters must ascend; passing must go from 0 to 100 and never decrease.
 /// @throws InputError naming file and line
 SieveSizes read_sieve_curve(const std::filesystem::path& file);
 

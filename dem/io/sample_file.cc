@@ -20,7 +20,7 @@ const char* const format = "mergel sample";
 const Seal sample_seal{"sample", "FNV-1a", "make it again with `mergel sample`",
                        [](std::string_view bytes) { return fnv_1a(bytes); }};
 
-/// The arrays of a sample as they lie in the file.
+/// The arrays of a sample as stored in the file.
 struct Columns {
   std::vector<double> x, R, m, S;
   std::vector<std::uint32_t> bonds;
@@ -44,7 +44,7 @@ std::vector<std::string> lines(const std::string& text)
 Columns to_columns(const Sample& s)
 {
   Columns c;
-  for (const Body& b : s.packing.particles.body) {
+  for (const ParticleState& b : s.packing.particles.state) {
     c.x.insert(c.x.end(), {b.x.x(), b.x.y(), b.x.z()});
     c.R.push_back(b.R);
     c.m.push_back(b.m);
@@ -68,8 +68,8 @@ Columns to_columns(const Sample& s)
   return c;
 }
 
-/// The HDF5 file, made in memory: HDF5 does not survive a disk that is full (1.10.8 crashes
-/// at the end of the program).
+/// Bytes of the HDF5 file, made in memory: with a full disk HDF5 1.10.8 crashes at the end
+/// of the program.
 std::string hdf5_bytes(const Columns& c)
 {
   const Quiet quiet;
@@ -114,7 +114,8 @@ Pair bond_of(const Columns& c, std::size_t b)
           {c.shifts[3 * b], c.shifts[3 * b + 1], c.shifts[3 * b + 2]}};
 }
 
-/// @throws InputError when the arrays do not fit each other, or a grain or bond cannot be
+/// @throws InputError when the arrays do not fit each other, or a particle or bond is not
+///   valid
 void check(const Columns& c)
 {
   const std::size_t n = c.R.size(), n_bonds = c.bonds.size() / 2;
@@ -131,13 +132,13 @@ void check(const Columns& c)
 
   for (std::size_t i = 0; i < n; ++i) {
     const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
-    bool is_grain = is_positive(c.R[i]) && is_positive(c.m[i]) && is_positive(c.S[i]);
+    bool is_particle = is_positive(c.R[i]) && is_positive(c.m[i]) && is_positive(c.S[i]);
     for (std::size_t a = 3 * i; a < 3 * i + 3; ++a)
-      is_grain = is_grain && std::isfinite(c.x[a]);
-    if (!is_grain)
-      throw InputError("is damaged (grain " + std::to_string(i) +
-                       " has no place, radius, mass or S); make it again with `mergel "
-                       "sample`");
+      is_particle = is_particle && std::isfinite(c.x[a]);
+    if (!is_particle)
+      throw InputError("is damaged (particle " + std::to_string(i) +
+                       " has no valid position, radius, mass or S); make it again with "
+                       "`mergel sample`");
   }
 }
 
@@ -148,7 +149,7 @@ Columns read_columns(const std::filesystem::path& path, std::uint64_t& sum)
   Columns c;
   int found = 0;
   try {
-    const OpenBytes memory(bytes, path); // what is read is what was summed
+    const OpenBytes memory(bytes, path); // the bytes of which the checksum was computed
     const hid_t file = memory.file();
     read_attribute(file, "version", H5T_NATIVE_INT, &found);
     if (found != version)
@@ -194,7 +195,7 @@ Sample read_sample(const std::filesystem::path& file)
   Sample s;
   const Columns c = read_columns(file, s.sum);
   for (std::size_t i = 0; i < c.R.size(); ++i) {
-    Body b;
+    ParticleState b;
     b.x = {c.x[3 * i], c.x[3 * i + 1], c.x[3 * i + 2]};
     b.R = c.R[i];
     b.m = c.m[i];

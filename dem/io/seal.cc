@@ -24,7 +24,7 @@ std::string bytes_of(const std::filesystem::path& file)
   std::string bytes(static_cast<std::size_t>(size), '\0');
   in.seekg(0);
   in.read(bytes.data(), size);
-  if (!in) throw InputError("cannot be read whole");
+  if (!in) throw InputError("cannot be read completely");
   return bytes;
 }
 
@@ -81,7 +81,7 @@ void seal(const std::filesystem::path& file, std::string_view bytes, const Seal&
 std::string unsealed(const std::filesystem::path& file, const Seal& seal,
                      std::uint64_t* sum)
 {
-  std::error_code error; // a name too long, a folder that may not be entered
+  std::error_code error; // for a name that is too long, or a folder without permission
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw InputError("there is no such file");
   if (!std::filesystem::is_regular_file(status)) throw InputError("is not a file");
@@ -92,10 +92,10 @@ std::string unsealed(const std::filesystem::path& file, const Seal& seal,
   const std::size_t tail = mark.size() + digits;
   if (bytes.size() < tail || bytes.compare(bytes.size() - tail, mark.size(), mark) != 0)
     throw DamagedFile("is no " + seal.kind + ", or is truncated; " + seal.remedy);
-  const std::string told = bytes.substr(bytes.size() - digits);
+  const std::string stored = bytes.substr(bytes.size() - digits);
   bytes.resize(bytes.size() - tail);
   const std::uint64_t found = seal.of(bytes);
-  if (told != hexadecimal(found))
+  if (stored != hexadecimal(found))
     throw DamagedFile("is damaged (its checksum does not match); " + seal.remedy);
   if (sum) *sum = found;
   return bytes;

@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The mark stands on a page that no rank writes to: a network file system sends whole
-/// pages of what it has read before.
+/// The mark is on a page that no rank writes to: a network file system writes whole pages,
+/// with the rest of a page as it was read before.
 constexpr std::uint64_t page = 65536;
 
 constexpr std::chrono::milliseconds pause{100};
@@ -33,7 +33,7 @@ const char* const remedy = " Choose a folder with --output that all nodes share.
   throw NumericalError(file.string() + ": cannot be written: " + reason);
 }
 
-/// An open file to read, closed on every way out.
+/// A file open for reading, closed by the destructor.
 struct Reader {
   explicit Reader(const fs::path& path) : number(::open(path.c_str(), O_RDONLY | O_CLOEXEC))
   {
@@ -47,7 +47,7 @@ struct Reader {
   int number;
 };
 
-/// What stands in the way of the mark, "" for nothing.
+/// Why the mark is not found; "" if it is.
 std::string missing(const fs::path& path, const FileMark& mark)
 {
   const Reader in(path);
@@ -55,7 +55,7 @@ std::string missing(const fs::path& path, const FileMark& mark)
   std::uint64_t value = 0;
   const ssize_t n = ::pread(in.number, &value, sizeof value, static_cast<off_t>(mark.at));
   if (n < 0) return std::generic_category().message(errno);
-  return n == sizeof value && value == mark.value ? "" : "there is another file";
+  return n == sizeof value && value == mark.value ? "" : "it finds another file";
 }
 
 } // namespace
@@ -104,13 +104,13 @@ FileMark SharedFile::mark(const Writer& maker)
   m.at = (m.end / page + 1) * page;
   std::random_device any;
   do m.value = (std::uint64_t{any()} << 32) ^ any();
-  while (m.value == 0); // what a hole holds
+  while (m.value == 0); // a hole in a file reads as 0
   m.maker = maker;
   write({reinterpret_cast<const char*>(&m.value), sizeof m.value}, m.at);
   return m;
 }
 
-void SharedFile::take_off(const FileMark& mark)
+void SharedFile::remove_mark(const FileMark& mark)
 {
   if (::ftruncate(number_, static_cast<off_t>(mark.end)) != 0) fail(final_name_);
 }
@@ -129,24 +129,25 @@ void SharedFile::write(std::string_view bytes, std::uint64_t at)
 
 void SharedFile::flush()
 {
-  if (::fsync(number_) != 0 && errno != EINVAL) fail(final_name_); // EINVAL: it cannot be
+  // EINVAL: this kind of file cannot be flushed.
+  if (::fsync(number_) != 0 && errno != EINVAL) fail(final_name_);
 }
 
 void require_mark(const fs::path& path, const fs::path& final_name, const FileMark& mark,
-                  const Writer& me, double patience)
+                  const Writer& me, double timeout)
 {
   const auto end =
-      std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
+      std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout);
   for (;;) {
     const std::string wrong = missing(path, mark);
     if (wrong.empty()) return;
     if (std::chrono::steady_clock::now() >= end)
-      throw NumericalError(final_name.string() + ": " + name_of(me) +
-                           " does not see the file that " + name_of(mark.maker) +
-                           " has made (" + wrong +
-                           "): the folder is another one there, or an old copy." + remedy);
+      throw NumericalError(
+          final_name.string() + ": " + name_of(me) + " does not see the file that " +
+          name_of(mark.maker) + " has made (" + wrong +
+          "): its node has another folder of this name, or an old copy." + remedy);
     std::this_thread::sleep_for(pause);
-    // A node may remember what its folder held: opening it asks the server again.
+    // A node may cache the list of a folder: opening the folder asks the server again.
     const fs::path folder = path.parent_path().empty() ? "." : path.parent_path();
     for (const fs::path& f : {folder, folder / ".."}) {
       std::error_code ignored;
@@ -180,7 +181,7 @@ std::string read_back(const fs::path& path, const fs::path& final_name,
   throw NumericalError(final_name.string() + ": what " + name_of(wrong->writer) +
                        " wrote did not arrive (bytes " + std::to_string(wrong->at) +
                        " to " + std::to_string(wrong->at + wrong->size) +
-                       " are others): the disk or the network file system has lost it." +
+                       " differ): the disk or the network file system has lost them." +
                        remedy);
 }
 

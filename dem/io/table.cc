@@ -88,7 +88,7 @@ const std::vector<double>& Table::column(std::string_view name, std::string_view
 Table read_table(const std::filesystem::path& file, LastLine last)
 {
   std::ifstream in(file);
-  std::error_code error; // a name too long, a folder that may not be entered
+  std::error_code error; // for a name that is too long, or a folder without permission
   require(std::filesystem::is_regular_file(file, error) && in.good(),
           file.string() + ": cannot be read. Check the name and its permissions.");
 
@@ -97,7 +97,7 @@ Table read_table(const std::filesystem::path& file, LastLine last)
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     const std::string where = file.string() + ":" + std::to_string(number) + ": ";
-    const bool is_complete = !in.eof(); // getline met the end of the line, not of the file
+    const bool is_complete = !in.eof(); // getline stopped at a newline
     if (trimmed(line).empty()) continue;
     if (trimmed(line).front() == '#') {
       table.remarks.emplace_back(trimmed(trimmed(line).substr(1)));
@@ -154,7 +154,7 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
 std::vector<double> moving_mean(const std::vector<double>& x, const std::vector<double>& y,
                                 double window)
 {
-  // Depth need not grow from row to row (holds, unloading): sort, then slide.
+  // Depth need not grow from row to row (holds, unloading): sort, then move the window.
   std::vector<std::size_t> order;
   for (std::size_t row = 0; row < x.size(); ++row)
     if (std::isfinite(x[row]) && std::isfinite(y[row])) order.push_back(row);

@@ -1,5 +1,5 @@
-/// A table of numbers in a text file, such as the history.csv of a run: columns found by
-/// name.
+/// A table of numbers in a text file, such as the history.csv of a run. Columns are found
+/// by name.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@ namespace mergel::dem {
 struct TableColumn {
   std::string name; ///< as written, without the unit
   std::string unit; ///< "-" for a pure number, empty if the heading gives none
-  std::vector<double>
-      values; ///< one per record; NaN where the run had no value ("nan" or empty)
+  /// One per record; NaN where the run had no value ("nan" or empty).
+  std::vector<double> values;
 };
 
 /// Every column has n_rows values.
@@ -22,37 +22,37 @@ struct Table {
   std::filesystem::path file;
   std::vector<TableColumn> columns; ///< in the order of the file
   std::size_t n_rows = 0;
-  std::vector<std::size_t> lines;   ///< of the file, one per row
-  std::vector<std::string> remarks; ///< the lines that begin with #, without it
-  bool is_last_line_cut =
-      false; ///< the run was writing, or was killed: that line is left out
+  std::vector<std::size_t> lines;   ///< line number in the file, one per row
+  std::vector<std::string> remarks; ///< the lines that begin with #, without the #
+  /// The last line is incomplete, because the run was writing or was killed; it is left
+  /// out.
+  bool is_last_line_cut = false;
 
   bool has(std::string_view name) const;
 
   /// The column of this name, which must carry this unit.
-  /// @throws InputError naming the file, the name or unit found missing, and the names
-  ///   there are
+  /// @throws InputError naming the file, the missing name and unit, and the columns that
+  ///   exist
   const std::vector<double>& column(std::string_view name, std::string_view unit) const;
 };
 
-/// Whether a last line without its end counts.
+/// Whether a last line without a newline counts.
 enum class LastLine {
-  whole,     ///< yes: a person wrote the file
-  may_be_cut ///< no: a run may be writing it, and "1.2" be the beginning of "1.25"
+  whole,     ///< yes: the file was written by hand
+  may_be_cut ///< no: a run may be writing it, and "1.2" may be the beginning of "1.25"
 };
 
-/// Read a table. Any column may be missing and more may follow: ask by name. Lines that
-/// begin with # are remarks.
-/// @throws InputError naming file and line: unreadable, no record, a line with too few or
-///   too many values, a value that is no number, two columns of one name
+/// Read a table. Lines that begin with # are remarks.
+/// @throws InputError naming file and line: file not readable, no record, a line with too
+///   few or too many values, a value that is no number, two columns with one name
 Table read_table(const std::filesystem::path& file, LastLine last = LastLine::may_be_cut);
 
 /// The value of column `y` at `x0` of the ascending column `x`, linear between records and
 /// constant beyond the ends; NaN if the table has no row with both.
 double interpolate(const std::vector<double>& x, const std::vector<double>& y, double x0);
 
-/// The mean of `y` over the rows whose `x` lies within half a `window` of each row's; rows
-/// where either is NaN count nowhere and stay NaN.
+/// For each row, the mean of `y` over the rows whose `x` differs by half a `window` at
+/// most. Rows where either is NaN are left out and stay NaN.
 std::vector<double> moving_mean(const std::vector<double>& x, const std::vector<double>& y,
                                 double window);
 

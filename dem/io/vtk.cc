@@ -85,8 +85,8 @@ void add_fields(const std::vector<Field>& fields, std::size_t n, const fs::path&
   }
 }
 
-/// Composed in memory and written by us: the writer of VTK 9.1 does not look whether its
-/// last buffer reached the disk.
+/// Composed in memory and written by replace_file(): the writer of VTK 9.1 does not check
+/// that its last buffer reached the disk.
 void write(const fs::path& file, vtkPolyData* data)
 {
   vtkNew<vtkXMLPolyDataWriter> writer;
@@ -126,7 +126,7 @@ std::string escaped(const std::string& text)
   return result;
 }
 
-/// The shortest of the usual forms that reads back as the same number.
+/// 15 digits if they read back as the same number, else 17.
 std::string to_text(double value)
 {
   char text[32];

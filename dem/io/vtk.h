@@ -1,12 +1,11 @@
-/// Pictures of the particles for ParaView: VTK XML files and their series in time.
+/// Fields for ParaView: VTK XML files and their time series.
 ///
-/// Points and values are Float64; data are appended, raw and zlib-compressed, so that a
+/// Points and values are Float64; data are appended, raw and LZ4-compressed, so that a
 /// reader gets back the same bits. Every file is written under a temporary name and renamed
 /// (dem/io/atomic_file.h). The folder must exist.
 ///
 /// All writers throw NumericalError, naming file and reason, when the file cannot be
-/// written (a full disk included), and std::logic_error when the sizes or indices handed in
-/// do not fit.
+/// written (a full disk included), and std::logic_error when sizes or indices do not fit.
 #pragma once
 
 #include "dem/notation.h"
@@ -45,19 +44,19 @@ struct SeriesEntry {
   std::filesystem::path file; ///< relative to the folder of the .pvd, unless absolute there
 };
 
-/// Files of one kind in the order of time: a ParaView collection (.pvd).
+/// Time series of files of one kind: a ParaView collection (.pvd).
 class Series {
 public:
   /// Nothing is written before the first add.
-  /// @param earlier entries to keep in front, say of the run that is continued
-  /// (read_series)
+  /// @param earlier entries to keep in front, for example those of the run that is
+  ///   continued (read_series())
   explicit Series(std::filesystem::path pvd, std::vector<SeriesEntry> earlier = {});
 
   /// Append `file`, written at `time` [s], and rewrite the .pvd; it lists paths relative to
   /// itself.
   void add(double time, const std::filesystem::path& file);
 
-  /// Rewrite the .pvd as it stands, or remove it when there are no entries.
+  /// Rewrite the .pvd, or remove it if there are no entries.
   void write() const;
 
   const std::vector<SeriesEntry>& entries() const { return entries_; }

@@ -4,9 +4,9 @@ namespace mergel::dem {
 
 namespace {
 
-/// (n, v) of the conditions of the minimum at given mu and h, with their slopes.
+/// (n, v) from the conditions of the minimum at given mu and h, with their slopes.
 struct Section {
-  double n, v;       ///< n as a magnitude
+  double n, v;       ///< both >= 0
   double n_h, v_h;   ///< slopes in h
   double n_mu, v_mu; ///< slopes in mu
 };
@@ -25,15 +25,15 @@ Section section(const YieldPoint& trial, const EnergyNorm& w, double mu, double 
   return s;
 }
 
-/// Root in [0, 1] of h (1 - n^2) - v^2, which rises with h where n < 1; 1 when the section
-/// lies beyond the ellipse even there.
+/// Root in [0, 1] of h (1 - n^2) - v^2, which rises with h where n < 1. Returns 1 when the
+/// point is outside the ellipse even at h = 1.
 double solve_h(const YieldPoint& trial, const EnergyNorm& w, double mu, double h)
 {
   const auto residual = [](const Section& s, double h_) {
     return h_ * (1.0 - s.n * s.n) - s.v * s.v;
   };
   if (residual(section(trial, w, mu, 1.0), 1.0) <= 0.0) return 1.0;
-  if (trial.v == 0.0) { // on the axis, where h is free at the tip n = 1 and 0 inside of it
+  if (trial.v == 0.0) { // on the axis: h is free at the tip n = 1, and 0 below it
     const double beyond = (trial.n - 1.0) * w.n - 2.0 * mu;
     return beyond > 0.0 ? std::sqrt(beyond / (2.0 * mu)) : 0.0; // mu > 0 since h < 1
   }
@@ -51,8 +51,8 @@ double solve_h(const YieldPoint& trial, const EnergyNorm& w, double mu, double h
   return h;
 }
 
-/// (n, v) at h = 1, on the way to the edge m = 0; rho2 = n^2 + v^2 falls with mu at the
-/// rate 2 fall.
+/// (n, v) at h = 1, for the return to the edge m = 0. The slope of rho2 = n^2 + v^2 in mu
+/// is -2 fall.
 struct EdgeSection {
   double n, v, rho2, fall;
 };
@@ -70,7 +70,7 @@ YieldPoint return_to_ellipse(const YieldPoint& trial, const EnergyNorm& w)
 {
   YieldPoint y{};
   double mu = 0.0;
-  // 1/rho is nearly linear in mu and concave: Newton from mu = 0 rises to the root.
+  // 1/rho is concave and nearly linear in mu: Newton from mu = 0 rises to the root.
   for (int i = 0; i < 60; ++i) {
     const EdgeSection s = edge_section(trial, w, mu);
     const double rho = std::sqrt(s.rho2), inv_rho = 1.0 / rho;
@@ -82,8 +82,9 @@ YieldPoint return_to_ellipse(const YieldPoint& trial, const EnergyNorm& w)
   return y;
 }
 
-/// The fast path of closest_point(): Newton for mu and h at once from the trial itself.
-/// False where it leaves the admissible set or does not settle; y is then as it was.
+/// The fast path of closest_point(): Newton for mu and h together, from the trial itself.
+/// Returns false, with y unchanged, where it leaves the admissible set or does not
+/// converge.
 ///
 /// With N = n^2, V = v^2 and subscripts for slopes it solves
 ///
@@ -102,7 +103,7 @@ bool return_by_newton(YieldPoint& y, const EnergyNorm& w)
     const double N = n * n, V = v * v, m = trial.m - mu * c_m;
     const double f = m + N + h * V - 1.0, g = h * (1.0 - N) - V;
     if (std::abs(f) <= round_off && std::abs(g) <= 1e-15 * h) {
-      // m as the surface has it, whatever is left of f; >= 0 since h <= 1
+      // m from the surface, so that the residual of f does not matter; >= 0 since h <= 1
       y = {n, v, std::max(0.0, 1.0 - N - h * V)};
       return true;
     }
@@ -119,7 +120,7 @@ bool return_by_newton(YieldPoint& y, const EnergyNorm& w)
   return false;
 }
 
-/// 1/k of each load; none of the twist without it, as T is 0 then.
+/// 1/k of each load; 0 for the twisting moment of a bond without twist, where T is 0.
 struct Compliance {
   double n, s, b, t;
 };
@@ -129,7 +130,7 @@ Compliance compliance(const BondShape<double>& s)
   return {1.0 / s.k_n, 1.0 / s.k_s, 1.0 / s.k_b, s.k_t > 0.0 ? 1.0 / s.k_t : 0.0};
 }
 
-/// As mutual_energy(shape, q0, q1).
+/// mutual_energy() of bond_section.h, with the compliances given.
 double mutual_energy(const Compliance& c, const EffectiveLoads<double>& q0,
                      const EffectiveLoads<double>& q1)
 {
@@ -139,11 +140,11 @@ double mutual_energy(const Compliance& c, const EffectiveLoads<double>& q0,
 
 } // namespace
 
-// Two paths. In a run the trial lies just outside the surface, where Newton for mu and h at
-// once settles in two or three steps. The problem is convex: whatever satisfies all
-// conditions within the admissible set is the closest point, so nothing else needs a check.
-// Where that Newton strays, as it does near the tip n = 1 and from trials far outside, the
-// search within a bracket takes over: slower, and it never fails.
+// Two paths. In a run the trial is just outside the surface, where Newton for mu and h
+// together converges in two or three steps. The problem is convex: a point of the
+// admissible set that satisfies all conditions is the closest point, so no other check is
+// needed. Near the tip n = 1 and from trials far outside that Newton may not converge. Then
+// the search within a bracket follows, which is slower and always converges.
 YieldPoint closest_point(const YieldPoint& given, const EnergyNorm& w)
 {
   YieldPoint trial = given;
@@ -154,7 +155,7 @@ YieldPoint closest_point(const YieldPoint& given, const EnergyNorm& w)
   };
 
   if (trial.n * trial.n + trial.v * trial.v > 1.0) {
-    // the edge where m = m* - mu/w.m is spent before the ellipse is reached
+    // the edge, where m = m* - mu/w.m falls to 0 while the point is outside the ellipse
     const bool is_edge = edge_section(trial, w, w.m * trial.m).rho2 >= 1.0;
     if (is_edge) return with_sign(return_to_ellipse(trial, w));
   }
@@ -162,8 +163,8 @@ YieldPoint closest_point(const YieldPoint& given, const EnergyNorm& w)
   YieldPoint y = trial;
   if (return_by_newton(y, w)) return with_sign(y);
 
-  // f(0) > 0, f(w.m m*) <= 0 because m is spent there and the edge was excluded. f(mu) can
-  // be S-shaped near the tip n = 1, where Newton may cycle between two ends of the bracket.
+  // f(0) > 0, and f(w.m m*) <= 0 because m is 0 there and the edge was excluded. f(mu) can
+  // be S-shaped near the tip n = 1, where Newton may cycle between the ends of the bracket.
   double low = 0.0, high = w.m * trial.m, mu = 0.0, h = 1.0;
   double width_before = 2.0 * high;
   Section s{};
@@ -192,7 +193,7 @@ YieldPoint closest_point(const YieldPoint& given, const EnergyNorm& w)
     mu = next;
     if (done) break;
   }
-  // The surface in its own parameters: exact whatever is left of f.
+  // From the parameters of the surface: the point is on it whatever the residual of f.
   const double p = std::max(0.0, 1.0 - s.n * s.n);
   return with_sign({s.n, std::min(trial.v, std::sqrt(h * p)), p * (1.0 - h * h)});
 }
@@ -232,7 +233,7 @@ BondReturn return_bond(const DamageBond& b, const BondShape<double>& s, double S
   r.loads = trial;
   double keep_V = 1.0, keep_M = 1.0;
   if (yield_function(y) > 0.0) {
-    // published: the length that Eq. 7 leaves out is 1 m in SI
+    // published: the length that Eq. 7 lacks is 1 m in SI units
     const double c_flow = b.flow == BendingFlow::conjugate ? c.b : c.b / s.R_b;
     const YieldPoint at =
         closest_point(y, {strength.N * strength.N * c.n, strength.V * strength.V * c.s,
@@ -250,7 +251,7 @@ BondReturn return_bond(const DamageBond& b, const BondShape<double>& s, double S
   r.state.u_p += du_n;
   r.state.intact *= std::exp(-((std::abs(du_n) + du_s) / (b.u_c * S) + dtheta / b.theta_c));
 
-  // Work of the true loads over the motion (trial - old)/k, trapezoidal.
+  // Work of the true loads over the motion (trial - old)/k, by the trapezoidal rule.
   const double d0 = state.intact, d1 = r.state.intact;
   const EffectiveLoads<double> step{trial.N - old.N, trial.V - old.V, trial.M - old.M,
                                     trial.T - old.T};
@@ -261,7 +262,7 @@ BondReturn return_bond(const DamageBond& b, const BondShape<double>& s, double S
   r.loss = from_start + at_end - stored;
   if (r.state.intact <= 1.0 - b.D_broken) {
     r.state.intact = 0.0;
-    r.residue = stored - at_end;
+    r.breakage_release = stored - at_end;
   }
   return r;
 }

@@ -1,6 +1,6 @@
-/// The bond laws that a run can choose from. A new one is a header beside this one, a name
-/// in the list below, its keys in apps/case/material_keys.cc, and its test; whatever it lacks is
-/// a compile error.
+/// The list of bond laws. To add one: a header beside this one, its name in the list below,
+/// its keys in apps/case/material_keys.cc, and a test (dem/laws/README.md, Adding a bond
+/// law). A missing function is a compile error.
 #pragma once
 
 #include "dem/laws/bond.h"
@@ -13,8 +13,8 @@ namespace mergel::dem {
 
 using BondLaw = std::variant<DamageBond, ParallelBond>;
 
-/// What the force kernel asks of a law: its elastic section, a test that a batch of pairs
-/// takes at once, and the step of one bond that fails it.
+/// What the force kernel needs of a law: its elastic section, an elastic test for a batch
+/// of pairs, and the inelastic step of one bond that fails the test.
 // clang-format off
 template <class Law>
 concept IsBondLaw =
@@ -36,7 +36,7 @@ concept IsBondLaw =
 // clang-format on
 static_assert(IsBondLaw<DamageBond> && IsBondLaw<ParallelBond>);
 
-/// Elastic part of whichever law it is.
+/// Elastic part of the law.
 inline const BondSection& section(const BondLaw& bond)
 {
   return std::visit([](const auto& law) -> const BondSection& { return law; }, bond);

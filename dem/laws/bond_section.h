@@ -1,4 +1,4 @@
-/// What every bond law shares: the elastic section of the bond, its loads and their energy.
+/// What all bond laws share: the elastic section of the bond, its loads and their energy.
 #pragma once
 
 #include "dem/error.h"
@@ -70,7 +70,7 @@ EffectiveLoads<Real> operator*(const EffectiveLoads<Real>& q, const Real& factor
   return {q.N * factor, q.V * factor, q.M * factor, q.T * factor};
 }
 
-/// q0.q1/k [J]: work of the constant load q0 on the elastic motion from rest to q1.
+/// q0.q1/k [J]: work of the constant load q0 on the elastic motion from no load to q1.
 template <class Real>
 Real mutual_energy(const BondShape<Real>& s, const EffectiveLoads<Real>& q0,
                    const EffectiveLoads<Real>& q1)
@@ -80,38 +80,39 @@ Real mutual_energy(const BondShape<Real>& s, const EffectiveLoads<Real>& q0,
          q0.T * q1.T / k_t;
 }
 
-/// Energy of the intact springs under these effective loads [J]; the bond stores 1 - D of
-/// it.
+/// Energy of undamaged springs under these effective loads [J]; the bond stores 1 - D times
+/// this.
 template <class Real>
 Real spring_energy(const BondShape<Real>& s, const EffectiveLoads<Real>& q)
 {
   return 0.5 * mutual_energy(s, q, q);
 }
 
-/// What an intact bond bears of each load alone; infinite where it does not fail.
+/// Strengths of an undamaged bond under one load alone; infinite where it does not break.
 struct SingleStrengths {
   double tension, compression, shear; ///< [N]
   double moment;                      ///< bending [N m]
 };
 
-/// Which load broke a bond: each law says by what measure it is the greatest.
+/// The load that broke a bond: the largest one, by a measure that each law defines.
 enum class BreakMode { tension, compression, shear, bending };
 inline constexpr std::size_t n_break_modes = 4;
 
-/// State of a bond that its law carries from step to step, beside its effective loads.
+/// History of a bond in addition to its effective loads.
 struct BondState {
   double u_p = 0.0;    ///< plastic normal displacement [m], signed
   double intact = 1.0; ///< 1 - D; 0 once broken
 };
 
-/// What an inelastic step does.
+/// Result of an inelastic step.
 struct BondReturn {
-  EffectiveLoads<double> loads; ///< admitted by the law
+  EffectiveLoads<double> loads; ///< after the step; at breakage those that broke the bond
   BondState state;              ///< updated
   double loss = 0.0;            ///< energy dissipated by plasticity and damage [J]
-  /// Energy dropped with a bond that broke [J]: what it still stored, less the work that its
-  /// load at the end of the step did not live to do (the second half of the trapezoid).
-  double residue = 0.0;
+  /// Energy released at bond breakage [J]: what the bond still stores, less the work that
+  /// its load at the end of the step could not do (the second half of the trapezoid). 0 for
+  /// a bond that does not break.
+  double breakage_release = 0.0;
 };
 
 } // namespace mergel::dem

@@ -1,12 +1,13 @@
-/// Far-field contact: a linear spring with Coulomb friction that acts before the spheres
-/// touch.
+/// Far-field contact: a linear spring with Coulomb friction that acts before the surfaces
+/// of the particles touch.
 ///
 ///   active   gap < g_a          g_a = g_a1 (S_i + S_j)/2
-///   normal   f_n = k_n (g_a - gap),   k_n = E pi r^2 / L,   r = min(R_i, R_j), L = R_i + R_j
+///   normal   f_n = k_n (g_a - gap),   k_n = E pi r^2/L,  r = min(R_i, R_j), L = R_i + R_j
 ///   shear    f_s += k_s du_s,         k_s = k_n / kappa,    |f_s| <= mu f_n
 ///
 /// Source: paper, section 2.1.2 and Table 1; the activation gap stands for irregular grains
-/// and bond debris (Hentz et al. 2004). Against a wall r = R and L = R.
+/// and bond debris (Hentz et al. 2004). Against a wall r = R and L = R. See dem/README.md,
+/// Far-field contact.
 #pragma once
 
 #include "dem/error.h"
@@ -45,7 +46,7 @@ LinearStiffness<Real> linear_stiffness(const LinearMaterial& c, const Real& r,
   return {k_n, k_n * (1.0 / c.kappa)};
 }
 
-/// What a contact does in one step.
+/// Result of one step of a contact.
 template <class Real>
 struct LinearContact {
   Real f_n;         ///< compression [N], >= 0
@@ -53,12 +54,12 @@ struct LinearContact {
   Real slip_loss;   ///< energy lost to sliding in this step [J], >= 0
 };
 
-/// @param f_s_old shear force of the last step, turned into the present contact plane [N]
+/// @param f_s_old shear force of the last step, rotated with the contact frame [N]
 /// @param g_a     activation gap of this pair [m]
 ///
-/// Where the contact slips the loss is the trapezoidal work of the shear force less the
-/// growth of the energy stored, (1-s)/(2 k_s) (f_old.f* + s f*^2) with s = mu f_n/|f*|. An
-/// opened contact loses what its shear spring still held.
+/// Where the contact slips, the loss is the work of the shear force (trapezoidal rule) less
+/// the growth of the stored energy, (1-s)/(2 k_s) (f_old.f* + s f*^2) with s = mu f_n/|f*|.
+/// A contact that opens loses the energy of its shear spring.
 template <class Real>
 [[gnu::always_inline]] inline LinearContact<Real>
 linear_contact(const LinearMaterial& c, const LinearStiffness<Real>& k, const Real& gap,

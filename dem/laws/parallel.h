@@ -2,17 +2,17 @@
 /// for rock, Int. J. Rock Mech. Min. Sci. 41, 1329, Eqs. 12-16.
 ///
 ///   elastic   N = k_n0 A u_n,  V += k_s0 A du_s,  M += k_n0 I dtheta,  T += k_s0 J dphi
-///   stresses  sigma = N/A + |M| R_b/I          greatest tension over the section
-///             tau   = |V|/A + |T| R_b/J        greatest shear
+///   stresses  sigma = N/A + |M| R_b/I          largest tension over the section
+///             tau   = |V|/A + |T| R_b/J        largest shear
 ///   breaks    at once, where sigma >= sigma_c or tau >= tau_c
 ///
 /// Departures from the source:
-/// - The normal load follows the change of the gap, not a sum of increments: both agree, and
-///   the former has no drift.
+/// - The normal load follows from the gap, not from a sum of increments. Both agree, but a
+///   sum drifts.
 /// - Shear and bending stiffness follow from the modulus by Eq. 4 of the paper, with the
-///   bond's length R_i + R_j, as for every bond here.
-/// - Later versions let the bending moment contribute in part (beta) and give tau_c
-///   friction; the source has neither.
+///   bond length R_i + R_j, as for every bond here.
+/// - Later versions have a factor of the bending moment (beta) and friction in tau_c. The
+///   source and this law have neither.
 #pragma once
 
 #include "dem/laws/bond_section.h"
@@ -24,7 +24,7 @@
 namespace mergel::dem {
 
 struct ParallelBond : BondSection {
-  static constexpr const char* name = "parallel"; ///< in case files and summaries
+  static constexpr const char* name = "parallel"; ///< name in case files and summaries
 
   double sigma_c = 0.0; ///< tensile strength of the cement [Pa], > 0
   double tau_c = 0.0;   ///< shear strength of the cement [Pa], > 0
@@ -47,7 +47,7 @@ inline ParallelBond with_strengths_times(double factor, ParallelBond b)
   return b;
 }
 
-/// Greatest stresses at the rim of the section [Pa].
+/// Largest stresses at the rim of the section [Pa].
 template <class Real>
 struct RimStress {
   Real sigma; ///< tension positive
@@ -76,7 +76,7 @@ inline SingleStrengths single_strengths(const ParallelBond& b, const BondShape<d
           0.25 * b.sigma_c * s.A * s.R_b};
 }
 
-/// Greater of sigma/sigma_c and tau/tau_c, less 1 [-].
+/// Larger of sigma/sigma_c and tau/tau_c, less 1 [-].
 inline double yield_value(const ParallelBond& b, const BondShape<double>& s,
                           const EffectiveLoads<double>& q)
 {
@@ -84,7 +84,8 @@ inline double yield_value(const ParallelBond& b, const BondShape<double>& s,
   return std::max(at.sigma / b.sigma_c, at.tau / b.tau_c) - 1.0;
 }
 
-/// Shear where tau is nearer to its strength than sigma; else the greater part of sigma.
+/// Shear where tau is nearer to its strength than sigma; else bending or tension, whichever
+/// gives the larger part of sigma.
 inline BreakMode break_mode(const ParallelBond& b, const BondShape<double>& s,
                             const EffectiveLoads<double>& q)
 {
@@ -94,12 +95,12 @@ inline BreakMode break_mode(const ParallelBond& b, const BondShape<double>& s,
   return bending > q.N * s.R_b ? BreakMode::bending : BreakMode::tension;
 }
 
-/// The bond is gone, and with it the energy that it stored: nothing in it depends on S.
+/// The bond breaks and releases the energy that it stored. Nothing here depends on S.
 inline BondReturn return_bond(const ParallelBond&, const BondShape<double>& s, double,
                               const BondState& state, const EffectiveLoads<double>& old,
                               const EffectiveLoads<double>& trial)
 {
-  // stored q1.q1/2k, less the work not done q1.(q1 - q0)/2k
+  // stored q1.q1/2k less the work not done q1.(q1 - q0)/2k is q0.q1/2k
   return {trial, {state.u_p, 0.0}, 0.0, 0.5 * mutual_energy(s, old, trial)};
 }
 

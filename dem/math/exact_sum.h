@@ -12,11 +12,11 @@ namespace mergel::dem {
 __extension__ typedef __int128 ExactWide;
 
 /// Sum in fixed point: terms are rounded to a multiple of the quantum and added as
-/// integers.
+/// integers (dem/README.md, Parallel execution).
 ///
-/// The quantum is 2^-exponent in the unit of the sum; a term may reach 2^(100-exponent), the
-/// sum 2^27 times that. A larger or undefined term throws NumericalError: it is never
-/// clipped.
+/// The quantum is 2^-exponent in the unit of the sum. A term must be below
+/// 2^(100-exponent), the sum below 2^27 times that. A term that is larger or not finite
+/// throws NumericalError; no term is clipped.
 template <int exponent>
 class ExactSum {
 public:
@@ -41,7 +41,7 @@ public:
   }
   double value() const { return static_cast<double>(sum_) / scale; }
   void clear() { sum_ = 0; }
-  ExactWide& raw() { return sum_; } ///< in quanta; for sums over ranks
+  ExactWide& raw() { return sum_; } ///< in quanta; for the sums over ranks
 
 private:
   static constexpr double scale =
@@ -54,7 +54,7 @@ using ForceSum = ExactSum<50>;  ///< [N]: quantum 9e-16 N, terms below 1e15 N
 using MomentSum = ExactSum<80>; ///< [N m] or [W]: quantum 8e-25, terms below 1e6
 using EnergySum = ExactSum<61>; ///< [J]: quantum 4e-19 J, terms below 5e11 J
 
-/// Order-free sum of vectors.
+/// Exact sum of vectors, by components.
 template <class Sum>
 struct ExactVector {
   Sum x, y, z;

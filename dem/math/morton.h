@@ -1,5 +1,5 @@
-/// Place of a point on Morton's space-filling curve: grains numbered along it have their
-/// neighbours near in memory. Source: Morton (1966), IBM technical report.
+/// Position of a point on Morton's space-filling curve: particles numbered along it have
+/// their neighbours near in memory. Source: Morton (1966), IBM technical report.
 #pragma once
 
 #include <cstdint>

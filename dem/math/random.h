@@ -1,4 +1,4 @@
-/// Random numbers by counter: the draw depends on seed, id and purpose only, never on the
+/// Counter-based random numbers: a number depends on seed, id and purpose only, not on the
 /// order of calls.
 #pragma once
 
@@ -6,9 +6,10 @@
 
 namespace mergel::dem {
 
-/// Uniform in [0, 1), 53 bits. Each (seed, id, draw) is a number of its own. Source: the
-/// finaliser of Steele, Lea and Flood (2014), Fast splittable pseudorandom number
+/// Uniform in [0, 1), 53 bits. Each (seed, id, draw) gives an independent number. Source:
+/// the finaliser of Steele, Lea and Flood (2014), Fast splittable pseudorandom number
 /// generators.
+/// @param draw number of the purpose
 inline double uniform(std::uint64_t seed, std::uint64_t id, std::uint64_t draw)
 {
   const auto mix = [](std::uint64_t z) {

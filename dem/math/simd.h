@@ -1,10 +1,9 @@
-/// Several pairs at a time: the arithmetic type of the force kernel.
+/// Arithmetic of several pairs at a time (SIMD), for the force kernel.
 ///
-/// A kernel is a template over `Real`: with Real = double it is the scalar law that tests
-/// and walls use, with Real = Lanes the same source runs on as many
-/// pairs as the processor has lanes. IEEE arithmetic of
-/// a lane does not depend on its neighbours, so a pair gets the same bits in any lane, and
-/// contraction is off in the build.
+/// A kernel is a template over `Real`: with Real = double it is the scalar law of tests and
+/// walls, with Real = Lanes the same source computes one pair per lane of the processor.
+/// The IEEE arithmetic of a lane does not depend on the other lanes, and the build switches
+/// contraction off: a pair gets the same bits in any lane.
 #pragma once
 
 #include "dem/notation.h"
@@ -18,8 +17,8 @@
 
 namespace mergel::dem {
 
-/// Eight where the processor has them. Four then cost as much: the time goes into waiting
-/// for results, and eight wait together.
+/// Eight lanes with AVX-512, else four. With AVX-512 four lanes cost as much time as eight,
+/// because the kernel waits for the latency of its operations.
 #ifdef __AVX512DQ__
 inline constexpr int n_lanes = 8;
 #else
@@ -108,7 +107,7 @@ inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d)
 #endif
 }
 
-/// One row a lane to four columns.
+/// One row per lane to four columns.
 inline void columns(const Row (&r)[n_lanes], Lanes& a, Lanes& b, Lanes& c, Lanes& d)
 {
 #ifdef __AVX512DQ__
@@ -125,7 +124,7 @@ inline void columns(const Row (&r)[n_lanes], Lanes& a, Lanes& b, Lanes& c, Lanes
   transpose(a, b, c, d);
 }
 
-/// Four columns to one row a lane.
+/// Four columns to one row per lane.
 inline void rows(Lanes a, Lanes b, Lanes c, Lanes d, Row (&r)[n_lanes])
 {
   transpose(a, b, c, d);
@@ -188,7 +187,7 @@ inline Vec3 vec3(const Triple<double>& a)
   return {a.x, a.y, a.z};
 }
 
-/// One lane, and back.
+/// Read and write one lane.
 inline Triple<double> lane(const Triple<Lanes>& a, int k)
 {
   return {a.x[k], a.y[k], a.z[k]};

@@ -1,4 +1,4 @@
-/// A bond by itself: its pair and its history, as ranks and checkpoints pass it on.
+/// History of one bond as a record, for messages between ranks and for checkpoints.
 #pragma once
 
 #include "dem/pairs/bonds.h"
@@ -7,8 +7,8 @@
 
 namespace mergel::dem {
 
-/// gap_0 [m], u_p [m], V [N], M [N m], T [N m], intact [-], and f_s [N] of the contact beside
-/// it: see BondBlock.
+/// gap_0 [m], u_p [m], V [N], M [N m], T [N m], intact [-], and f_s [N] of the contact of
+/// the pair: see BondBlock.
 using BondHistory = std::array<double, 13>;
 
 inline BondHistory history_of(const Bonds& bonds, std::size_t b)
@@ -19,7 +19,8 @@ inline BondHistory history_of(const Bonds& bonds, std::size_t b)
           k.M.z[l],   k.T[l],   k.intact[l], k.f_s.x[l], k.f_s.y[l], k.f_s.z[l]};
 }
 
-/// Append a bond; pairs ascending. A new block is padded as broken.
+/// Append a bond; its pair must follow all others in order. A new block is padded as
+/// broken.
 inline void append(Bonds& bonds, const Pair& pair, const BondHistory& h)
 {
   const auto l = static_cast<int>(bonds.size() % n_lanes);

@@ -8,7 +8,7 @@ namespace {
 
 double gap_of(const Pair& pair, const Particles& p, const PeriodicCell& cell)
 {
-  const Body &i = p.body[pair.i], &j = p.body[pair.j];
+  const ParticleState &i = p.state[pair.i], &j = p.state[pair.j];
   return (j.x + cell.offset(pair.shift) - i.x).norm() - (i.R + j.R);
 }
 
@@ -36,7 +36,7 @@ BondReading read_bond(const Bonds& bonds, std::size_t b, const Particles& p,
   const BondBlock& block = bonds.blocks[b / n_lanes];
   const auto l = static_cast<int>(b % n_lanes);
   const Pair& pair = bonds.pairs[b];
-  const double R_i = p.body[pair.i].R, R_j = p.body[pair.j].R;
+  const double R_i = p.state[pair.i].R, R_j = p.state[pair.j].R;
   const double intact = block.intact[l];
   const auto shape = bond_shape(section(law), std::min(R_i, R_j), 1.0 / (R_i + R_j));
   EffectiveLoads<double> q{0.0, lane(block.V, l), lane(block.M, l), block.T[l]};

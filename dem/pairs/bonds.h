@@ -1,4 +1,4 @@
-/// Which pairs are bonded, and the history of bond and contact between them.
+/// The bonded pairs, with the histories of bond and contact of each.
 #pragma once
 
 #include "dem/laws/bond_law.h"
@@ -10,7 +10,7 @@
 
 namespace mergel::dem {
 
-/// History of n_lanes bonds, and of the far-field contacts that act beside them.
+/// Histories of n_lanes bonds and of the far-field contacts of the same pairs.
 struct BondBlock {
   Lanes gap_0;       ///< gap at which the bond was made [m]
   Lanes u_p;         ///< plastic normal displacement [m]
@@ -21,23 +21,23 @@ struct BondBlock {
   Triple<Lanes> f_s; ///< shear force of the contact on i [N]
 };
 
-/// Every pair that was ever bonded, in ascending order. A broken bond stays: its pair goes
-/// on as a contact in the same place of the sums, so breaking reorders nothing.
+/// All pairs that were ever bonded, in ascending order. A broken bond keeps its place,
+/// where the contact of its pair goes on: breakage does not change the order of summation.
 struct Bonds {
   std::vector<Pair> pairs;
   std::vector<BondBlock>
-      blocks; ///< block k holds n_lanes pairs from k n_lanes on; the last is padded as broken
+      blocks; ///< block k has n_lanes pairs from k n_lanes on; the last is padded as broken
 
   std::size_t size() const { return pairs.size(); }
   double intact(std::size_t b) const { return blocks[b / n_lanes].intact[b % n_lanes]; }
 };
 
-/// Bond these pairs as they lie: zero loads at the present gap. `pairs` ascending and
-/// unique; counts the living bonds of each particle up.
+/// Bond these pairs without load at their present gap. Raises n_bonds of their particles.
+/// @param pairs ascending and unique
 Bonds make_bonds(Particles& p, const PeriodicCell& cell, std::vector<Pair> pairs);
 
-/// One bond as output and energy book see it: true loads, that is effective loads times 1 -
-/// D.
+/// One bond for output and the energy balance, with true loads on i: the effective loads
+/// times 1 - D.
 struct BondReading {
   double N;      ///< [N]
   Vec3 V, M;     ///< [N], [N m]

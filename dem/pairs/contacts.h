@@ -1,5 +1,5 @@
-/// Pairs within reach of each other that were never bonded, and the shear history of those
-/// in contact.
+/// Pairs of the neighbour list that were never bonded, and the shear force of those in
+/// contact.
 #pragma once
 
 #include "dem/pairs/pairs.h"

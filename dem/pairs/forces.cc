@@ -18,29 +18,28 @@ Row row(const double* four)
   return r;
 }
 
-/// Particles of one batch, transposed from their records.
-[[gnu::always_inline]] inline End<Lanes> gather(const Body* body, const Index* at)
+/// One particle of each pair of a batch, transposed from the records.
+[[gnu::always_inline]] inline End<Lanes> gather(const ParticleState* state, const Index* at)
 {
   const auto rows = [&](auto member, Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
     Row r[n_lanes];
-    for (int l = 0; l < n_lanes; ++l) r[l] = row((body[at[l]].*member).data());
+    for (int l = 0; l < n_lanes; ++l) r[l] = row((state[at[l]].*member).data());
     columns(r, a, b, c, d);
   };
   End<Lanes> e;
-  Lanes m; // the mass shares the row of the spin
-  rows(&Body::x, e.x.x, e.x.y, e.x.z, e.R);
-  rows(&Body::v, e.v.x, e.v.y, e.v.z, e.S);
-  rows(&Body::omega, e.omega.x, e.omega.y, e.omega.z, m);
+  Lanes m; // the mass is in the row of the spin
+  rows(&ParticleState::x, e.x.x, e.x.y, e.x.z, e.R);
+  rows(&ParticleState::v, e.v.x, e.v.y, e.v.z, e.S);
+  rows(&ParticleState::omega, e.omega.x, e.omega.y, e.omega.z, m);
   return e;
 }
 
-/// Force on i and torques of a batch of pairs, one row for each force and torque.
+/// Forces on i and torques of a batch of pairs, one row for each.
 struct Rows {
   Row f[n_lanes], t_i[n_lanes], t_j[n_lanes];
 };
 
-/// @param F force on i; @param M moment on i. The same force acts on both at the contact
-///   point.
+/// @param F force on i at the contact point, -F acts on j; @param M moment on i, -M on j
 [[gnu::always_inline]] inline Rows to_rows(const PairMotion<Lanes>& k,
                                            const Triple<Lanes>& F, const Triple<Lanes>& M)
 {
@@ -64,8 +63,8 @@ void add_row(double* four, Row a)
   std::memcpy(four, &sum, sizeof sum);
 }
 
-/// Add the lanes to the particles, one after the other: the order of the pairs is the order
-/// of the sums.
+/// Add the lanes to the particles one after the other: each particle adds its pairs in
+/// their order.
 [[gnu::always_inline]] inline void scatter(Load* load, const Index* i, const Index* j,
                                            int count, const Rows& r)
 {
@@ -77,8 +76,8 @@ void add_row(double* four, Row a)
   }
 }
 
-/// The pairs of one batch; what is missing at the end repeats the last pair and is not
-/// scattered.
+/// The pairs of one batch. Missing pairs of the last batch repeat the last pair; they are
+/// not scattered.
 struct Batch {
   Index i[n_lanes], j[n_lanes];
   int count;
@@ -114,7 +113,8 @@ void shift_images(const std::vector<Pair>& pairs, const std::size_t* which,
   }
 }
 
-/// In a driven cell v is the motion against the cell: give j what the cell moves it against i.
+/// In a strain-controlled cell v is relative to the cell: add to j the velocity of the cell
+/// at j relative to that at i.
 [[gnu::always_inline]] inline void add_cell_motion(const Vec3& rate, const End<Lanes>& i,
                                                    End<Lanes>& j)
 {
@@ -122,8 +122,8 @@ void shift_images(const std::vector<Pair>& pairs, const std::size_t* which,
   j.v += {r.x * rate.x(), r.y * rate.y(), r.z * rate.z()};
 }
 
-/// Apart from the loops and by value, so that a cell that is not driven pays nothing for it.
-/// @param r from i to j; @param F force on i
+/// Not inlined, with arguments by value, so that it costs nothing without a
+/// strain-controlled cell. @param r from i to j; @param F force on i
 [[gnu::noinline]] void add_virial(Triple<Lanes> r, Triple<Lanes> F, const Batch& q,
                                   const Particles& p, PairLosses& losses)
 {
@@ -134,14 +134,14 @@ void shift_images(const std::vector<Pair>& pairs, const std::size_t* which,
 
 void prefetch(const Particles& p, Index j)
 {
-  const char* b = reinterpret_cast<const char*>(&p.body[j]);
+  const char* b = reinterpret_cast<const char*>(&p.state[j]);
   __builtin_prefetch(b);
   __builtin_prefetch(b + 64);
   __builtin_prefetch(&p.load[j], 1);
 }
 
-/// Bonds that are all as strong as their law says.
-struct AlikeStrengths {
+/// All bonds have the strengths of their law.
+struct UniformStrengths {
   template <IsBondLaw Law>
   [[gnu::always_inline]] static Mask yields(const Law& law, const BondShape<Lanes>& shape,
                                             const EffectiveLoads<Lanes>& load, const Batch&,
@@ -157,8 +157,8 @@ struct AlikeStrengths {
   }
 };
 
-/// Bonds with a factor of their own: strengths times f are loads over f.
-struct VariedStrengths {
+/// Each bond has a factor f of its strengths; the loads are divided by f instead.
+struct VariableStrengths {
   template <IsBondLaw Law>
   [[gnu::always_inline]] static Mask yields(const Law& law, const BondShape<Lanes>& shape,
                                             const EffectiveLoads<Lanes>& load,
@@ -175,7 +175,7 @@ struct VariedStrengths {
   }
 };
 
-/// Return the lanes that left the yield surface, one at a time.
+/// Return the lanes whose trial is outside the yield surface, one at a time.
 template <class Strengths, IsBondLaw Law>
 void return_lanes(const Law& law, const BondShape<Lanes>& s, const Lanes& S,
                   const Mask& yields, const Batch& q, const EffectiveLoads<Lanes>& old,
@@ -206,12 +206,12 @@ void return_lanes(const Law& law, const BondShape<Lanes>& s, const Lanes& S,
     --p.n_bonds[q.i[l]];
     --p.n_bonds[q.j[l]];
     if (!counts) continue;
-    losses.residue.add(r.residue);
+    losses.breakage_release.add(r.breakage_release);
     ++losses.broken;
     const BreakMode mode = break_mode(b, shape, r.loads);
     ++losses.broken_by[static_cast<std::size_t>(mode)];
     losses.breakages.push_back(
-        {pairs[l], 0.5 * (p.body[q.i[l]].x + p.body[q.j[l]].x), mode});
+        {pairs[l], 0.5 * (p.state[q.i[l]].x + p.state[q.j[l]].x), mode});
   }
 }
 
@@ -227,9 +227,10 @@ void add_forces_of(const Law& law, const LinearMaterial& contact_law,
                    const PeriodicCell& cell, double dt, Particles& p, Bonds& bonds,
                    PairLosses& losses)
 {
-  const Law bond = law; // copies: no store below can change them
+  const Law bond = law; // copies, so that no store below can alias them
   const LinearMaterial beside = contact_law;
-  const bool is_periodic = cell.is_periodic(), is_driven = cell.is_driven;
+  const bool is_periodic = cell.is_periodic(),
+             is_strain_controlled = cell.is_strain_controlled;
   const Vec3 rate = cell.rate;
   const std::size_t n = bonds.size();
   for (std::size_t first = 0; first < n; first += n_lanes) {
@@ -237,10 +238,10 @@ void add_forces_of(const Law& law, const LinearMaterial& contact_law,
       if (a < n) prefetch(p, bonds.pairs[a].j);
 
     const Batch q = batch_of(bonds.pairs, nullptr, first, n);
-    const End<Lanes> i = gather(p.body.data(), q.i);
-    End<Lanes> j = gather(p.body.data(), q.j);
+    const End<Lanes> i = gather(p.state.data(), q.i);
+    End<Lanes> j = gather(p.state.data(), q.j);
     if (is_periodic) shift_images(bonds.pairs, nullptr, first, q, cell, j.x);
-    if (is_driven) add_cell_motion(rate, i, j);
+    if (is_strain_controlled) add_cell_motion(rate, i, j);
     const PairMotion<Lanes> k = pair_motion(i, j, dt);
 
     BondBlock& h = bonds.blocks[first / n_lanes];
@@ -248,7 +249,7 @@ void add_forces_of(const Law& law, const LinearMaterial& contact_law,
 
     // bond
     const BondShape<Lanes> shape = bond_shape(bond, r, k.inv_L);
-    const Triple<Lanes> V = turned(h.V, k), M = turned(h.M, k);
+    const Triple<Lanes> V = rotated_with_contact(h.V, k), M = rotated_with_contact(h.M, k);
     EffectiveLoads<Lanes> load{shape.k_n * (k.gap - h.gap_0 - h.u_p),
                                V + k.du_s * shape.k_s, M + k.dtheta * shape.k_b,
                                h.T + k.dphi * shape.k_t};
@@ -264,9 +265,10 @@ void add_forces_of(const Law& law, const LinearMaterial& contact_law,
     h.M = select(lives, load.M, zero);
     h.T = select(lives, load.T, Lanes{});
 
-    // contact beside it
-    const auto contact = linear_contact(beside, linear_stiffness(beside, r, k.inv_L), k.gap,
-                                        beside.g_a * S, k.du_s, turned(h.f_s, k));
+    // contact of the same pair
+    const auto contact =
+        linear_contact(beside, linear_stiffness(beside, r, k.inv_L), k.gap, beside.g_a * S,
+                       k.du_s, rotated_with_contact(h.f_s, k));
     h.f_s = contact.f_s;
     add_slip(contact.slip_loss, q, p, losses);
 
@@ -275,7 +277,7 @@ void add_forces_of(const Law& law, const LinearMaterial& contact_law,
         k.n * (h.intact * N - contact.f_n) + h.V * h.intact + contact.f_s;
     const Triple<Lanes> on_i = (h.M + k.n * h.T) * h.intact;
     scatter(p.load.data(), q.i, q.j, q.count, to_rows(k, F, on_i));
-    if (is_driven) add_virial(k.n * (k.a_i + k.a_j), F, q, p, losses);
+    if (is_strain_controlled) add_virial(k.n * (k.a_i + k.a_j), F, q, p, losses);
   }
 }
 
@@ -286,32 +288,32 @@ bool is_zero(const Vec3& a)
   return ((bits[0] | bits[1] | bits[2]) << 1) == 0; // without the sign
 }
 
-/// Most candidates do not touch: only those that do, or did, go through the kernel. Their
-/// numbers are written to `which`; returns how many. Without a branch on what is as good as
-/// random.
-std::size_t choose_touching(double g_a, const PeriodicCell& cell, const Particles& p,
-                            const Contacts& contacts, std::size_t* which)
+/// Choose the pairs that go through the kernel: those in contact, and those that still have
+/// a shear force. Most candidates are neither. Writes their numbers to `which` and returns
+/// their count. There is no branch on the distance, because it cannot be predicted.
+std::size_t choose_in_contact(double g_a, const PeriodicCell& cell, const Particles& p,
+                              const Contacts& contacts, std::size_t* which)
 {
   const bool is_periodic = cell.is_periodic();
   const Pair* const pairs = contacts.pairs.data();
   const ContactShear* const shear = contacts.shear.data();
-  const Body* const body = p.body.data();
+  const ParticleState* const state = p.state.data();
   const std::size_t n = contacts.pairs.size();
-  std::size_t n_touching = 0;
+  std::size_t n_in_contact = 0;
   for (std::size_t c = 0; c < n; ++c) {
-    __builtin_prefetch(&body[pairs[std::min(c + prefetch_ahead, n - 1)].j]);
+    __builtin_prefetch(&state[pairs[std::min(c + prefetch_ahead, n - 1)].j]);
     const Pair& pair = pairs[c];
-    const Body &i = body[pair.i], &j = body[pair.j];
+    const ParticleState &i = state[pair.i], &j = state[pair.j];
     Vec3 r = j.x - i.x;
     if (is_periodic && (pair.shift[0] | pair.shift[1] | pair.shift[2]) != 0)
       r += cell.offset(pair.shift);
     const double reach = i.R + j.R + g_a * (0.5 * (i.S + j.S));
-    // A NaN goes through, and is met.
+    // A distance of NaN counts as contact: the force is NaN then, and the next kick throws.
     const bool is_apart = r.squaredNorm() >= reach * reach * (1.0 + 1e-12);
-    which[n_touching] = c;
-    n_touching += !is_apart | !is_zero(shear[c].f_s);
+    which[n_in_contact] = c;
+    n_in_contact += !is_apart | !is_zero(shear[c].f_s);
   }
-  return n_touching;
+  return n_in_contact;
 }
 
 } // namespace
@@ -321,9 +323,10 @@ void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, do
 {
   std::visit(
       [&](const auto& law) {
-        const auto& add = p.strength.empty()
-                              ? add_forces_of<AlikeStrengths, std::decay_t<decltype(law)>>
-                              : add_forces_of<VariedStrengths, std::decay_t<decltype(law)>>;
+        const auto& add =
+            p.strength.empty()
+                ? add_forces_of<UniformStrengths, std::decay_t<decltype(law)>>
+                : add_forces_of<VariableStrengths, std::decay_t<decltype(law)>>;
         add(law, material.contact, cell, dt, p, bonds, losses);
       },
       material.bond);
@@ -332,26 +335,28 @@ void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, do
 void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell, double dt,
                         Particles& p, Contacts& contacts, PairLosses& losses)
 {
-  const bool is_periodic = cell.is_periodic(), is_driven = cell.is_driven;
+  const bool is_periodic = cell.is_periodic(),
+             is_strain_controlled = cell.is_strain_controlled;
   const Vec3 rate = cell.rate;
   const std::size_t n = contacts.pairs.size();
 
-  static thread_local std::vector<std::size_t> touching;
-  touching.resize(n);
-  std::size_t* const which = touching.data();
-  const std::size_t n_touching = choose_touching(material.g_a, cell, p, contacts, which);
+  static thread_local std::vector<std::size_t> in_contact;
+  in_contact.resize(n);
+  std::size_t* const which = in_contact.data();
+  const std::size_t n_in_contact =
+      choose_in_contact(material.g_a, cell, p, contacts, which);
 
-  for (std::size_t first = 0; first < n_touching; first += n_lanes) {
+  for (std::size_t first = 0; first < n_in_contact; first += n_lanes) {
     for (std::size_t a = first + prefetch_ahead; a < first + prefetch_ahead + n_lanes; ++a)
-      if (a < n_touching) {
+      if (a < n_in_contact) {
         prefetch(p, contacts.pairs[which[a]].j);
         __builtin_prefetch(&contacts.shear[which[a]], 1);
       }
-    const Batch q = batch_of(contacts.pairs, which, first, n_touching);
-    const End<Lanes> i = gather(p.body.data(), q.i);
-    End<Lanes> j = gather(p.body.data(), q.j);
+    const Batch q = batch_of(contacts.pairs, which, first, n_in_contact);
+    const End<Lanes> i = gather(p.state.data(), q.i);
+    End<Lanes> j = gather(p.state.data(), q.j);
     if (is_periodic) shift_images(contacts.pairs, which, first, q, cell, j.x);
-    if (is_driven) add_cell_motion(rate, i, j);
+    if (is_strain_controlled) add_cell_motion(rate, i, j);
     const PairMotion<Lanes> k = pair_motion(i, j, dt);
 
     Row shear[n_lanes];
@@ -365,14 +370,15 @@ void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell
     columns(shear, f_s.x, f_s.y, f_s.z, pad);
 
     const Lanes r = min(i.R, j.R), S = 0.5 * (i.S + j.S);
-    const auto contact = linear_contact(material, linear_stiffness(material, r, k.inv_L),
-                                        k.gap, material.g_a * S, k.du_s, turned(f_s, k));
+    const auto contact =
+        linear_contact(material, linear_stiffness(material, r, k.inv_L), k.gap,
+                       material.g_a * S, k.du_s, rotated_with_contact(f_s, k));
     add_slip(contact.slip_loss, q, p, losses);
 
     const Triple<Lanes> F = contact.f_s - k.n * contact.f_n;
     const Rows rows = to_rows(k, F, Triple<Lanes>{});
     scatter(p.load.data(), q.i, q.j, q.count, rows);
-    if (is_driven) add_virial(k.n * (k.a_i + k.a_j), F, q, p, losses);
+    if (is_strain_controlled) add_virial(k.n * (k.a_i + k.a_j), F, q, p, losses);
     for (int l = 0; l < q.count; ++l)
       contacts.shear[which[first + static_cast<std::size_t>(l)]].f_s =
           vec3(lane(contact.f_s, l));
@@ -382,7 +388,7 @@ void add_contact_forces(const LinearMaterial& material, const PeriodicCell& cell
 ContactReading read_contact(const Pair& pair, const Vec3& f_s, const Particles& p,
                             const PeriodicCell& cell, const LinearMaterial& material)
 {
-  const Body &i = p.body[pair.i], &j = p.body[pair.j];
+  const ParticleState &i = p.state[pair.i], &j = p.state[pair.j];
   const double L = i.R + j.R;
   const double gap = (j.x + cell.offset(pair.shift) - i.x).norm() - L;
   const double closed = material.g_a * 0.5 * (i.S + j.S) - gap;
@@ -391,7 +397,7 @@ ContactReading read_contact(const Pair& pair, const Vec3& f_s, const Particles& 
   return {k.k_n * closed, 0.5 * (k.k_n * closed * closed + f_s.squaredNorm() / k.k_s)};
 }
 
-Vec3 shear_beside(const Bonds& bonds, std::size_t b)
+Vec3 contact_shear_of(const Bonds& bonds, std::size_t b)
 {
   return vec3(lane(bonds.blocks[b / n_lanes].f_s, static_cast<int>(b % n_lanes)));
 }
@@ -406,7 +412,7 @@ PairEnergy pair_energy(const PairMaterials& material, const PeriodicCell& cell,
   for (std::size_t b = 0; b < bonds.size(); ++b) {
     if (!p.owns(bonds.pairs[b].i)) continue;
     e.bonds.add(read_bond(bonds, b, p, cell, material.bond).energy);
-    add_contact(bonds.pairs[b], shear_beside(bonds, b));
+    add_contact(bonds.pairs[b], contact_shear_of(bonds, b));
   }
   for (std::size_t c = 0; c < contacts.pairs.size(); ++c)
     if (p.owns(contacts.pairs[c].i)) add_contact(contacts.pairs[c], contacts.shear[c].f_s);

@@ -1,4 +1,4 @@
-/// Forces between particles: one kernel for every pair, bonded or not.
+/// Forces between particles: one kernel for all pairs, bonded or not.
 #pragma once
 
 #include "dem/math/exact_sum.h"
@@ -9,43 +9,43 @@
 
 namespace mergel::dem {
 
-/// Where a bond between grains broke, and of what.
+/// Where a bond between particles broke, and under which load.
 struct Breakage {
   Pair pair;
   Vec3 x = Vec3::Zero(); ///< half way between the centres [m]
   BreakMode mode = BreakMode::tension;
 };
 
-/// What pairs and walls dissipate and how many bonds break. A pair counts where its first
-/// grain is owned.
+/// Energy lost by pairs and walls, and number of broken bonds. A pair counts on the rank
+/// that owns its first particle.
 struct PairLosses {
-  EnergySum slip;    ///< friction [J]
-  EnergySum plastic; ///< plasticity and damage of bonds [J]
-  EnergySum residue; ///< still stored in bonds that broke [J]
+  EnergySum slip;             ///< friction [J]
+  EnergySum plastic;          ///< plasticity and damage of bonds [J]
+  EnergySum breakage_release; ///< energy released at bond breakage [J]
   std::size_t broken = 0;
-  std::size_t yielded = 0;         ///< bonds that yielded, summed over steps
-  std::vector<Breakage> breakages; ///< of bonds between grains, in no order
-  std::array<std::size_t, n_break_modes> broken_by{}; ///< of these, by mode
-  /// In a driven cell, diagonal of sum F (x) r of the last step: volume times stress, tension
-  /// positive [J].
+  std::size_t yielded = 0;         ///< yielding bonds, summed over all steps
+  std::vector<Breakage> breakages; ///< of bonds between particles, not sorted
+  std::array<std::size_t, n_break_modes> broken_by{}; ///< breakages by mode
+  /// In a strain-controlled cell, diagonal of sum F (x) r of the last step [J]: volume
+  /// times stress, tension positive.
   ExactVector<EnergySum> virial;
 };
 
-/// Both materials of a pair: of the bond and of the contact beside it.
+/// The materials of a pair: of its bond and of its far-field contact.
 struct PairMaterials {
   BondLaw bond;
   LinearMaterial contact;
 };
 
-/// Add force and torque of every bond, then of every contact, to p.load, each in ascending
-/// order, and carry their histories over the step dt [s] that ends now. A bond that breaks
-/// is counted down at both its particles.
+/// Add force and torque of all bonded pairs, or of all other contacts, to p.load, in
+/// ascending order, and update their histories over the step dt [s] that ends now. A bond
+/// that breaks lowers n_bonds of both particles.
 void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, double dt,
                      Particles& p, Bonds& bonds, PairLosses& losses);
 void add_contact_forces(const LinearMaterial& contact, const PeriodicCell& cell, double dt,
                         Particles& p, Contacts& contacts, PairLosses& losses);
 
-/// One far-field contact as books and output see it.
+/// One far-field contact, for output and the energy balance.
 struct ContactReading {
   double f_n;    ///< compression [N]; 0 when open
   double energy; ///< stored in both springs [J]
@@ -55,11 +55,11 @@ struct ContactReading {
 ContactReading read_contact(const Pair& pair, const Vec3& f_s, const Particles& p,
                             const PeriodicCell& cell, const LinearMaterial& material);
 
-/// Shear force of the contact beside a bond [N].
-Vec3 shear_beside(const Bonds& bonds, std::size_t b);
+/// Shear force of the contact of a bonded pair, on i [N].
+Vec3 contact_shear_of(const Bonds& bonds, std::size_t b);
 
-/// Elastic energy [J] of bonds, and of contacts with those beside the bonds; a pair counts
-/// where its first grain is owned.
+/// Stored energy [J] of bonds and of all contacts, those of bonded pairs included. A pair
+/// counts on the rank that owns its first particle.
 struct PairEnergy {
   EnergySum bonds, contacts;
 };

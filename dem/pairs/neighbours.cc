@@ -11,15 +11,15 @@ namespace {
 
 using Cells = std::array<long, 3>;
 
-constexpr int coarsest_level = 30; ///< below 2^-30 of the largest all share one class
+constexpr int finest_level = 30; ///< one class for all below 2^-30 of the largest
 
-/// Particles of one size class sorted into cubes no smaller than the largest reach among
-/// them.
+/// Particles of one size class, sorted into cells whose edges are at least twice the
+/// largest reach among them.
 struct Level {
   double reach = 0.0; ///< largest R + range S/2 in this class [m]
   Vec3 edge, origin;  ///< of the cells [m]
   Cells n{1, 1, 1};
-  std::vector<Index> start; ///< first entry of `member` by cell
+  std::vector<Index> start; ///< first entry of the cell in `member`
   std::vector<Index> member;
   std::vector<Index> all; ///< particles of the class, ascending
 
@@ -29,15 +29,15 @@ struct Level {
   }
 };
 
-double reach_of(const Body& b, double range)
+double reach_of(const ParticleState& b, double range)
 {
   return b.R + 0.5 * range * b.S;
 }
 
-/// Images of all particles inside the cell, with the shift that brought them there.
+/// Images of all particles inside the cell, with the shifts that map them there.
 struct Wrapped {
   std::vector<Vec3> x;
-  std::vector<Shift> shift; ///< x = body.x - offset(shift)
+  std::vector<Shift> shift; ///< x = state.x - offset(shift)
 };
 
 Wrapped wrap(const Particles& p, const PeriodicCell& cell)
@@ -46,7 +46,7 @@ Wrapped wrap(const Particles& p, const PeriodicCell& cell)
   w.x.reserve(p.size());
   w.shift.assign(p.size(), Shift{});
   for (std::size_t i = 0; i < p.size(); ++i) {
-    Vec3 x = p.body[i].x;
+    Vec3 x = p.state[i].x;
     for (int a = 0; a < 3; ++a)
       if (cell.size[a] > 0.0) {
         const double k = std::floor(x[a] / cell.size[a]);
@@ -79,7 +79,7 @@ void sort_into_cells(Level& l, const Wrapped& w, const PeriodicCell& cell, const
 {
   // No more cells than particles of the class, so that memory stays linear.
   const auto most = static_cast<double>(std::max<std::size_t>(l.all.size(), 64));
-  // A box that is long one way needs several turns: where it is one cell wide it stays so.
+  // An elongated box needs several passes: a direction that is one cell wide stays so.
   double edge = 2.0 * l.reach;
   Vec3 length = high - low;
   for (int a = 0; a < 3; ++a)
@@ -141,7 +141,7 @@ void visit_around(const Level& l, const Vec3& x, const PeriodicCell& cell, Visit
       }
 }
 
-/// Ascending order: buckets by i, then each bucket by j and shift.
+/// Pairs in ascending order: sorted into buckets by i, each bucket sorted by j and shift.
 std::vector<Pair> sorted(const std::vector<Pair>& found, std::size_t n_particles)
 {
   std::vector<std::size_t> start(n_particles + 1, 0);
@@ -156,8 +156,8 @@ std::vector<Pair> sorted(const std::vector<Pair>& found, std::size_t n_particles
   return out;
 }
 
-/// Grains that may meet an owned one: all of them, or those in the box of the owned ones
-/// widened by `reach`. In a periodic cell all.
+/// Flags the particles that may form a pair with an owned one: those in the bounding box of
+/// the owned particles widened by `reach`. All, in a periodic cell or where all are owned.
 std::vector<char> near_owned(const Particles& p, const Wrapped& w, const PeriodicCell& cell,
                              double reach)
 {
@@ -183,7 +183,7 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
 {
   if (p.size() == 0) return {};
   double largest = 0.0;
-  for (const Body& b : p.body) largest = std::max(largest, reach_of(b, range));
+  for (const ParticleState& b : p.state) largest = std::max(largest, reach_of(b, range));
   for (int a = 0; a < 3; ++a)
     require(cell.size[a] == 0.0 || cell.size[a] >= 4.0 * largest,
             "the periodic cell is too small: edge " + std::to_string(cell.size[a]) +
@@ -199,9 +199,9 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
     if (!is_near[i]) continue;
     low = low.cwiseMin(w.x[i]);
     high = high.cwiseMax(w.x[i]);
-    const double reach = reach_of(p.body[i], range);
-    const auto l = static_cast<std::size_t>(
-        std::clamp(std::ilogb(largest / reach), 0, coarsest_level));
+    const double reach = reach_of(p.state[i], range);
+    const auto l =
+        static_cast<std::size_t>(std::clamp(std::ilogb(largest / reach), 0, finest_level));
     if (l >= levels.size()) levels.resize(l + 1);
     levels[l].all.push_back(static_cast<Index>(i));
     levels[l].reach = std::max(levels[l].reach, reach);
@@ -214,14 +214,14 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
   for (Index i = 0; i < p.size(); ++i) {
     if (!is_near[i]) continue;
     const bool is_mine = p.owns(i);
-    const double reach_i = reach_of(p.body[i], range);
+    const double reach_i = reach_of(p.state[i], range);
     for (std::size_t k = 0; k <= level_of[i]; ++k) {
       const Level& l = levels[k];
       if (l.all.empty()) continue;
       const bool same = k == level_of[i];
       visit_around(l, w.x[i], cell, [&](Index j, const Shift& s) {
         if ((same && j <= i) || !(is_mine || p.owns(j))) return;
-        const double reach = reach_i + reach_of(p.body[j], range);
+        const double reach = reach_i + reach_of(p.state[j], range);
         if ((w.x[j] + cell.offset(s) - w.x[i]).squaredNorm() >= reach * reach) return;
         Pair q{i, j, {}};
         for (std::size_t a = 0; a < 3; ++a)
@@ -240,13 +240,13 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
 double VerletList::travel(const Particles& p) const
 {
   if (x_built_.size() != p.size()) return std::numeric_limits<double>::infinity();
-  double most2 = 0.0; // of the motion over S
+  double max2 = 0.0; // of the motion over S
   p.for_owned([&](Index i) {
-    const double S = p.body[i].S;
-    most2 = std::max(
-        most2, (p.body[i].x - x_built_[i].cwiseProduct(stretch_)).squaredNorm() / (S * S));
+    const double S = p.state[i].S;
+    max2 = std::max(
+        max2, (p.state[i].x - x_built_[i].cwiseProduct(stretch_)).squaredNorm() / (S * S));
   });
-  return std::sqrt(most2);
+  return std::sqrt(max2);
 }
 
 void VerletList::rebuild(const Particles& p, const PeriodicCell& cell, const Bonds& bonds,
@@ -265,12 +265,12 @@ void VerletList::rebuild(const Particles& p, const PeriodicCell& cell, const Bon
   }
   contacts = std::move(fresh);
   x_built_.resize(p.size());
-  least_skin_ = std::numeric_limits<double>::infinity();
+  smallest_skin_ = std::numeric_limits<double>::infinity();
   double largest = 0.0; // (R_i + R_j)/((S_i + S_j)/2) is at most twice the largest R/S
   for (std::size_t i = 0; i < p.size(); ++i) {
-    x_built_[i] = p.body[i].x;
-    least_skin_ = std::min(least_skin_, skin_ * p.body[i].S);
-    largest = std::max(largest, p.body[i].R / p.body[i].S);
+    x_built_[i] = p.state[i].x;
+    smallest_skin_ = std::min(smallest_skin_, skin_ * p.state[i].S);
+    largest = std::max(largest, p.state[i].R / p.state[i].S);
   }
   longest_reach_ = 2.0 * largest + g_a_ + skin_;
   stretch_ = Vec3::Ones();

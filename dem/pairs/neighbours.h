@@ -1,4 +1,5 @@
-/// Which particles may act on each other: cell search and Verlet list.
+/// Pairs of particles that may act on each other: cell search and Verlet list
+/// (dem/README.md, Neighbour lists).
 #pragma once
 
 #include "dem/pairs/bonds.h"
@@ -8,77 +9,82 @@
 
 namespace mergel::dem {
 
-/// Every pair with gap < range (S_i + S_j)/2 that touches an owned grain, ascending. Cells by size class, a factor of
-/// two each: linear in the number of particles at any ratio of diameters.
+/// All pairs with gap < range (S_i + S_j)/2 and at least one owned particle, ascending. The
+/// particles are sorted into cells by size class, a factor of two per class: the cost is
+/// linear in the number of particles at any ratio of diameters.
 ///
 /// @param range gap at S = 1 [m], >= 0
-/// @throws InputError when a periodic edge is shorter than twice the longest reach, so
-///   that a particle could meet its own image
+/// @throws InputError when a periodic edge is shorter than four times the largest reach
+///   R + range S/2, so that a particle could act on its own image
 std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, double range);
 
-/// Margin of a list at S = 1 over the smallest grain, where nothing asks for another.
-inline constexpr double usual_skin = 0.3;
+/// Skin of a list at S = 1 over the diameter of the smallest particle, by default [-].
+inline constexpr double default_skin = 0.3;
 
-/// Shortest edge of a periodic cell in which find_pairs() sees each pair once [m]: four times
-/// the reach, radius and half of the range, of the largest grain.
-inline double least_edge(double largest_diameter, double range, double S)
+/// The same beside a moving pile: some hundred steps between two rebuilds at 1 m/s.
+inline constexpr double skin_under_pile = 0.45;
+
+/// Smallest edge of a periodic cell in which find_pairs() finds each pair once [m]: four
+/// times the reach (radius plus half of the range) of the largest particle.
+/// @param largest_diameter, range at S = 1 [m]
+inline double smallest_edge(double largest_diameter, double range, double S)
 {
   return 2.0 * S * (largest_diameter + range);
 }
 
-/// Verlet list: the pairs within g_a + skin, good until some particle has moved by half its
-/// skin against the cell. A strain of the cell brings pairs nearer besides and takes its
-/// share of the skin.
+/// Verlet list: the pairs with a gap below g_a + skin. It holds until a particle has moved
+/// by half its skin relative to the cell. A strain of the cell brings unlisted pairs nearer
+/// too, and uses up a part of the skin.
 ///
-/// A rebuild is unobservable: it adds and removes only pairs that do not act, and history
-/// stays with its pair.
+/// A rebuild does not change results: it adds and removes only pairs that do not act, and
+/// history stays with its pair.
 class VerletList {
 public:
-  /// @param g_a activation gap, @param skin margin; both at S = 1 [m], both scale with S
+  /// @param g_a activation gap; @param skin margin. Both at S = 1 [m]; both scale with S
   VerletList(double g_a, double skin) : g_a_(g_a), skin_(skin) {}
 
-  /// Tell that since the last call no particle, of any rank, moved by more than `most` S [m].
-  /// Whoever moves particles tells it, or invalidates the list.
+  /// Report that since the last call no particle of any rank moved by more than `most` S
+  /// [m]. To be called after every motion of particles, or else invalidate().
   void add_motion(double most) { travel_ += most; }
-  /// Tell that the cell carried all particles along, its edges growing by these factors.
+  /// Report a strain of the cell that scaled its edges and all positions by these factors.
   void add_strain(const Vec3& growth)
   {
     stretch_ = stretch_.cwiseProduct(growth);
     travel_ *= std::max(1.0, growth.maxCoeff());
   }
 
-  /// True when the motions told since the last build allow a particle to have moved by half
-  /// its skin, or there was no build.
+  /// True when, by the motions reported since the last build, a particle may have moved by
+  /// half its skin, or when there was no build.
   bool may_be_stale(const Particles& p) const
   {
     return x_built_.size() != p.size() || travel_ > allowance();
   }
-  /// Largest motion over S of an owned particle against the cell since the last build [m];
-  /// infinite without.
+  /// Largest motion over S of an owned particle relative to the cell since the last build
+  /// [m]; infinite without a build.
   double travel(const Particles& p) const;
-  /// The greatest travel() of all ranks: true when a particle moved by half its skin.
-  bool is_stale(double greatest)
+  /// True when a particle moved by half its skin. @param largest global max of travel() [m]
+  bool is_stale(double largest)
   {
-    travel_ = greatest;
+    travel_ = largest;
     return travel_ > allowance();
   }
   /// The same on one rank.
   bool is_stale(const Particles& p) { return may_be_stale(p) && is_stale(travel(p)); }
 
-  /// Replace the pairs of `contacts`, those ever bonded left out, and keep the shear
-  /// history.
+  /// Replace the pairs of `contacts`, without those that were ever bonded. Pairs that
+  /// remain keep their shear force.
   void rebuild(const Particles& p, const PeriodicCell& cell, const Bonds& bonds,
                Contacts& contacts);
 
   void invalidate() { x_built_.clear(); }
   double skin() const { return skin_; }
-  /// How far a wall may move before the list is stale: half the skin of the smallest S [m].
-  double wall_allowance() const { return 0.5 * least_skin_; }
+  /// Motion of a wall after which the list is stale: half the skin of the smallest S [m].
+  double wall_allowance() const { return 0.5 * smallest_skin_; }
   std::size_t n_builds() const { return n_builds_; }
 
 private:
-  /// Half of the skin that the strain has left: a pair that was not listed is nearer by the
-  /// greatest shortening at most, so with distances over S
+  /// Half of the skin that the strain has left [m]. The cell brings an unlisted pair nearer
+  /// by the largest shortening of an edge at most. With distances over S:
   ///   (1 - shortening) (reach + skin) - 2 travel >= reach
   double allowance() const
   {
@@ -88,9 +94,9 @@ private:
 
   double g_a_, skin_;
   std::vector<Vec3> x_built_;
-  Vec3 stretch_ = Vec3::Ones(); ///< edges of the cell over those at the last build
-  double longest_reach_ = 0.0;  ///< greatest (R_i + R_j)/S, with g_a + skin [m]
-  double least_skin_ = 0.0;     ///< [m]
+  Vec3 stretch_ = Vec3::Ones(); ///< edges of the cell over those at the last build [-]
+  double longest_reach_ = 0.0;  ///< bound of (R_i + R_j)/S + g_a + skin [m]
+  double smallest_skin_ = 0.0;  ///< of the smallest S [m]
   double travel_ = 0.0;         ///< bound of the motion over S since the last build [m]
   std::size_t n_builds_ = 0;
 };

@@ -1,4 +1,4 @@
-/// Pairs of particles and the order in which they are summed.
+/// Pairs of particles and their order, in which forces are summed.
 #pragma once
 
 #include "dem/particles/cell.h"
@@ -7,8 +7,8 @@
 
 namespace mergel::dem {
 
-/// A pair, i < j; ascending in (i, j, shift) everywhere. Indices name the same particles on
-/// every rank, and ascend with the ids.
+/// A pair, i < j. Lists of pairs ascend in (i, j, shift). Indices name the same particles
+/// on all ranks, and ascend with the ids.
 struct Pair {
   Index i, j;
   Shift shift{}; ///< periodic image of j

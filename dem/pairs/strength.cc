@@ -10,17 +10,17 @@ namespace mergel::dem {
 
 namespace {
 
-// Draws of random.h that nothing else takes: the same seed may have made the grains.
+// Draws of random.h with no other use: the specimen may have been made from the same seed.
 constexpr std::uint64_t first_draw = 1000, second_draw = 1001;
 
-/// Uniform in (0, 1), both ends left out.
+/// Uniform in (0, 1), without 0 and 1.
 double inside_unit(std::uint64_t seed, std::uint64_t id, std::uint64_t draw)
 {
   return uniform(seed, id, draw) + 0x1p-54;
 }
 
-/// exp(s z - s^2/2), s^2 = ln(1 + variation^2), z normal by Box and Muller (1958), Ann. Math.
-/// Stat. 29, 610.
+/// exp(s z - s^2/2), s^2 = ln(1 + variation^2), z normal by Box and Muller (1958), Ann.
+/// Math. Stat. 29, 610.
 class LogNormal {
 public:
   explicit LogNormal(double variation) : s_(std::sqrt(std::log1p(variation * variation))) {}
@@ -107,9 +107,10 @@ StrengthSpread describe_strengths(const Particles& p)
   s.mean = sum / n;
   for (const double f : p.strength) squares += (f - s.mean) * (f - s.mean);
   s.variation = std::sqrt(squares / n) / s.mean; // mean > 0: every factor is
-  const auto [least, greatest] = std::minmax_element(p.strength.begin(), p.strength.end());
-  s.least = *least;
-  s.greatest = *greatest;
+  const auto [smallest, largest] =
+      std::minmax_element(p.strength.begin(), p.strength.end());
+  s.smallest = *smallest;
+  s.largest = *largest;
   return s;
 }
 

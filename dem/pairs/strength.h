@@ -1,10 +1,12 @@
-/// Bonds that are not all equally strong: each grain draws a factor of mean 1.
+/// Variable bond strengths: each particle draws a factor of mean 1 (dem/README.md, Strength
+/// variability).
 ///
-/// The paper names it (section 2.2.2, after Ciantia et al. 2014) as what keeps a loose rock from
-/// collapsing at once when its bonds soften; it gives neither a distribution nor a width.
+/// The paper (section 2.2.2, after Ciantia et al. 2014) gives this variability as the
+/// reason why a loose rock does not collapse at once when its bonds soften. It gives
+/// neither a distribution nor a width.
 ///
-/// A factor is a function of seed and id alone: neither ranks nor the order of anything enter,
-/// and no file has to keep it.
+/// A factor is a function of seed and id alone: it does not depend on the number of ranks
+/// or on any order, and no file stores it.
 #pragma once
 
 #include "dem/particles/particles.h"
@@ -16,11 +18,11 @@ struct StrengthVariability {
   enum class Distribution {
     none,
     log_normal,
-    weibull ///< of two parameters: Weibull (1951), J. Appl. Mech. 18, 293
+    weibull ///< two parameters: Weibull (1951), J. Appl. Mech. 18, 293
   };
 
   Distribution distribution = Distribution::none;
-  double variation = 0.0; ///< coefficient of variation of the grains [-], in (0, 1]
+  double variation = 0.0; ///< coefficient of variation of the particles [-], in (0, 1]
   std::uint64_t seed = 1;
 
   bool is_on() const { return distribution != Distribution::none; }
@@ -28,32 +30,33 @@ struct StrengthVariability {
   void check() const;
 };
 
-/// Draw p.strength for all grains; without variability it stays empty.
+/// Draw p.strength of all particles; it is empty without variability.
 void draw_strengths(const StrengthVariability& v, Particles& p);
 
-/// Shape of the Weibull distribution with this coefficient of variation [-]: 1 at 1.
+/// Shape of the Weibull distribution with this coefficient of variation [-]; 1 for 1.
 double weibull_shape(double variation);
 
-/// Factor of a bond between two grains, for sigma_t, sigma_c and C alike: their mean, as the
-/// pair's S. The mean of all bonds stays 1, so that the strengths of the case stay what they
-/// are calibrated for; their coefficient of variation is that of the grains over sqrt(2).
-/// The weaker of the two would weaken a rock by 0.56 of the coefficient of variation.
+/// Factor of a bond between two particles, for sigma_t, sigma_c and C: the mean of theirs,
+/// like S of a pair. The mean of all bonds is 1, so the calibrated strengths of a case
+/// remain valid; the coefficient of variation of bonds is that of the particles over
+/// sqrt(2). The smaller of the two factors would lower the mean strength by 0.56 of the
+/// coefficient of variation.
 /// @pre p.strength is not empty
 inline double strength_between(const Particles& p, Index i, Index j)
 {
   return 0.5 * (p.strength[i] + p.strength[j]);
 }
 
-/// Of a bond to what has no strength of its own: a wall, the grain's mirror image.
+/// Factor of a bond to a wall or to the particle's mirror image.
 inline double strength_of(const Particles& p, Index i)
 {
   return p.strength.empty() ? 1.0 : p.strength[i];
 }
 
-/// What was drawn.
+/// Statistics of the factors drawn [-].
 struct StrengthSpread {
   double mean = 1.0, variation = 0.0; ///< coefficient of variation [-]
-  double least = 1.0, greatest = 1.0;
+  double smallest = 1.0, largest = 1.0;
 };
 StrengthSpread describe_strengths(const Particles& p);
 

@@ -36,20 +36,20 @@ std::size_t Communicator::global_sum(std::size_t count) const
 
 void Communicator::agree_on(const Fault& fault) const
 {
-  std::string words = fault.words();
+  std::string message = fault.message();
   if (!is_alone()) {
-    const auto first = static_cast<int>(global_min(fault.is_met() ? rank_ : n_ranks_));
+    const auto first = static_cast<int>(global_min(fault.is_set() ? rank_ : n_ranks_));
     if (first == n_ranks_) return;
-    std::uint64_t length = words.size();
+    std::uint64_t length = message.size();
     MPI_Bcast(&length, 1, MPI_UINT64_T, first, comm_);
-    words.resize(length);
-    MPI_Bcast(words.data(), static_cast<int>(length), MPI_CHAR, first, comm_);
+    message.resize(length);
+    MPI_Bcast(message.data(), static_cast<int>(length), MPI_CHAR, first, comm_);
   }
-  if (!words.empty()) throw Unstable(words);
+  if (!message.empty()) throw Unstable(message);
 }
 
 void Communicator::gather_bytes(const void* mine, std::size_t n, std::size_t size,
-                                const std::function<void*(std::size_t)>& room) const
+                                const std::function<void*(std::size_t)>& allocate) const
 {
   const auto n_ranks = static_cast<std::size_t>(n_ranks_);
   std::vector<int> counts(n_ranks), at(n_ranks);
@@ -60,8 +60,8 @@ void Communicator::gather_bytes(const void* mine, std::size_t n, std::size_t siz
   MPI_Type_contiguous(static_cast<int>(size), MPI_BYTE, &record);
   MPI_Type_commit(&record);
   MPI_Allgatherv(mine, own, record,
-                 room(static_cast<std::size_t>(at.back() + counts.back())), counts.data(),
-                 at.data(), record, comm_);
+                 allocate(static_cast<std::size_t>(at.back() + counts.back())),
+                 counts.data(), at.data(), record, comm_);
   MPI_Type_free(&record);
 }
 

@@ -1,4 +1,4 @@
-/// The ranks that share an assembly, and the global values that they agree on.
+/// The ranks that an assembly is distributed over, and their global operations.
 #pragma once
 
 #include "dem/collective_failure.h"
@@ -12,7 +12,7 @@ namespace mergel::dem {
 
 class Communicator {
 public:
-  /// One rank that owns everything; MPI need not be up.
+  /// One rank that owns everything; MPI need not be initialised.
   Communicator() = default;
   /// @param comm must outlive the communicator
   explicit Communicator(MPI_Comm comm);
@@ -20,20 +20,20 @@ public:
   int rank() const { return rank_; }
   int n_ranks() const { return n_ranks_; }
   bool is_alone() const { return n_ranks_ == 1; }
-  /// MPI_COMM_NULL of one rank without MPI.
+  /// MPI_COMM_NULL for one rank without MPI.
   MPI_Comm mpi() const { return comm_; }
 
   double global_min(double value) const;           ///< collective
   double global_max(double value) const;           ///< collective
   std::size_t global_sum(std::size_t count) const; ///< collective
-  /// Reductions since the start: sums, minima and flags.
+  /// Number of reductions since the start: sums, minima, maxima and faults.
   std::size_t n_reductions() const { return n_reductions_; }
 
-  /// End the run in order when a rank has found a fault; collective.
+  /// Throw on all ranks when one of them has a fault; collective.
   /// @throws Unstable on all ranks, with the message of the lowest rank that found one
   void agree_on(const Fault& fault) const;
 
-  /// Records of all ranks, in the order of ranks; collective.
+  /// Records of all ranks on every rank, in the order of the ranks; collective.
   template <class Record>
   std::vector<Record> gather(const std::vector<Record>& mine) const
   {
@@ -49,7 +49,7 @@ public:
 private:
   friend class ExactReduction;
   void gather_bytes(const void* mine, std::size_t n, std::size_t size,
-                    const std::function<void*(std::size_t)>& room) const;
+                    const std::function<void*(std::size_t)>& allocate) const;
 
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0, n_ranks_ = 1;

@@ -27,7 +27,7 @@ void Ghosts::choose(Particles& p, const std::vector<char>& is_needed,
   }
   p.set_ownership(std::move(is_owned), is_ghost);
 
-  // Everybody tells every owner what to send.
+  // Each rank sends each owner the list of particles that it needs.
   const auto n = static_cast<std::size_t>(comm.n_ranks());
   std::vector<std::vector<Index>> wanted(n);
   for (std::size_t r = 0; r < n; ++r)
@@ -63,20 +63,19 @@ void Ghosts::update(Particles& p, const Communicator& comm)
   std::vector<MPI_Request> requests;
   requests.reserve(2 * neighbours_.size());
   for (Neighbour& q : neighbours_)
-    MPI_Irecv(q.in.data(), n_numbers(q.in), MPI_DOUBLE, q.rank, ghost_tag,
-              comm.mpi(), &requests.emplace_back());
+    MPI_Irecv(q.in.data(), n_numbers(q.in), MPI_DOUBLE, q.rank, ghost_tag, comm.mpi(),
+              &requests.emplace_back());
   for (Neighbour& q : neighbours_) {
-    for (std::size_t k = 0; k < q.send.size(); ++k)
-      q.out[k] = pack(p.body[q.send[k]]);
-    MPI_Isend(q.out.data(), n_numbers(q.out), MPI_DOUBLE, q.rank, ghost_tag,
-              comm.mpi(), &requests.emplace_back());
+    for (std::size_t k = 0; k < q.send.size(); ++k) q.out[k] = pack(p.state[q.send[k]]);
+    MPI_Isend(q.out.data(), n_numbers(q.out), MPI_DOUBLE, q.rank, ghost_tag, comm.mpi(),
+              &requests.emplace_back());
     ++traffic_.messages;
     traffic_.bytes += sizeof(PackedMotion) * q.out.size();
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   for (const Neighbour& q : neighbours_)
     for (std::size_t k = 0; k < q.receive.size(); ++k)
-      unpack(q.in[k], p.body[q.receive[k]]);
+      unpack(q.in[k], p.state[q.receive[k]]);
 }
 
 } // namespace mergel::dem

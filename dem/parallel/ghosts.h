@@ -1,4 +1,5 @@
-/// Particles of other ranks that act on our own: which they are, and where they are now.
+/// Ghosts, the particles of other ranks that act on particles of this rank: their choice,
+/// and the exchange of their motion.
 #pragma once
 
 #include "dem/parallel/packed_motion.h"
@@ -10,17 +11,18 @@ namespace mergel::dem {
 
 class Ghosts {
 public:
-  /// Those of `is_needed` that others own become our ghosts; collective.
+  /// The particles of `is_needed` (one flag per particle) that other ranks own become
+  /// ghosts of this rank; collective.
   void choose(Particles& p, const std::vector<char>& is_needed, const Partition& partition,
               const Communicator& comm);
 
-  /// None: the particles have new owners.
+  /// Remove all ghosts, when the particles have new owners.
   void clear() { neighbours_.clear(); }
 
-  /// Position, velocity and spin of the ghosts from their owners; collective.
+  /// Receive position, velocity and spin of the ghosts from their owners; collective.
   void update(Particles& p, const Communicator& comm);
 
-  /// What this rank has sent to others since the start.
+  /// Messages and bytes that this rank has sent to others since the start.
   struct Traffic {
     std::size_t messages = 0, bytes = 0;
   };

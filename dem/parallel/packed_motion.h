@@ -1,4 +1,4 @@
-/// Position, velocity and spin of a particle as a message carries them.
+/// Position, velocity and spin of a particle, packed for messages.
 #pragma once
 
 #include "dem/particles/particles.h"
@@ -9,13 +9,13 @@ namespace mergel::dem {
 
 using PackedMotion = std::array<double, 9>;
 
-inline PackedMotion pack(const Body& b)
+inline PackedMotion pack(const ParticleState& b)
 {
   return {b.x[0], b.x[1],     b.x[2],     b.v[0],    b.v[1],
           b.v[2], b.omega[0], b.omega[1], b.omega[2]};
 }
 
-inline void unpack(const PackedMotion& from, Body& b)
+inline void unpack(const PackedMotion& from, ParticleState& b)
 {
   for (int a = 0; a < 3; ++a) {
     const auto k = static_cast<std::size_t>(a);

@@ -12,9 +12,9 @@ namespace mergel::dem {
 
 namespace {
 
-/// What Zoltan asks for.
-struct Objects {
-  std::vector<Index> grain;
+/// The owned particles, as the query functions of Zoltan read them.
+struct ZoltanObjects {
+  std::vector<Index> particle;
   std::vector<std::array<double, 3>> x;
   std::vector<double> weight;
 };
@@ -22,15 +22,15 @@ struct Objects {
 int count_objects(void* data, int* error)
 {
   *error = ZOLTAN_OK;
-  return static_cast<int>(static_cast<Objects*>(data)->grain.size());
+  return static_cast<int>(static_cast<ZoltanObjects*>(data)->particle.size());
 }
 
 void list_objects(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int,
                   float* weight, int* error)
 {
-  const auto& o = *static_cast<Objects*>(data);
-  for (std::size_t k = 0; k < o.grain.size(); ++k) {
-    global[k] = o.grain[k];
+  const auto& o = *static_cast<ZoltanObjects*>(data);
+  for (std::size_t k = 0; k < o.particle.size(); ++k) {
+    global[k] = o.particle[k];
     local[k] = static_cast<ZOLTAN_ID_TYPE>(k);
     weight[k] = static_cast<float>(o.weight[k]);
   }
@@ -46,7 +46,7 @@ int count_dimensions(void*, int* error)
 void place_object(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, double* x,
                   int* error)
 {
-  const auto& at = static_cast<Objects*>(data)->x[*local];
+  const auto& at = static_cast<ZoltanObjects*>(data)->x[*local];
   std::copy(at.begin(), at.end(), x);
   *error = ZOLTAN_OK;
 }
@@ -63,13 +63,13 @@ void Partition::assign(Particles& p, const std::vector<double>& weight,
                        const Communicator& comm)
 {
   if (comm.is_alone()) return;
-  Objects mine;
+  ZoltanObjects mine;
   p.for_owned([&](Index i) {
-    mine.grain.push_back(i);
-    const Vec3& x = p.body[i].x;
+    mine.particle.push_back(i);
+    const Vec3& x = p.state[i].x;
     mine.x.push_back({x.x(), x.y(), x.z()});
   });
-  mine.weight = weight.empty() ? std::vector<double>(mine.grain.size(), 1.0) : weight;
+  mine.weight = weight.empty() ? std::vector<double>(mine.particle.size(), 1.0) : weight;
 
   float version = 0.0F;
   check(Zoltan_Initialize(0, nullptr, &version), "Zoltan_Initialize");
@@ -77,7 +77,7 @@ void Partition::assign(Particles& p, const std::vector<double>& weight,
   const auto set = [zoltan](const char* name, const char* value) {
     check(Zoltan_Set_Param(zoltan, name, value), name);
   };
-  set("DEBUG_LEVEL", "0"); // first: the others speak
+  set("DEBUG_LEVEL", "0"); // first, because the others print messages
   set("LB_METHOD", "RCB");
   set("OBJ_WEIGHT_DIM", "1");
   set("RETURN_LISTS", "PARTS");
@@ -96,7 +96,7 @@ void Partition::assign(Particles& p, const std::vector<double>& weight,
                             &out_rank, &out_part),
         "Zoltan_LB_Partition");
   struct Owner {
-    Index grain;
+    Index particle;
     int rank;
   };
   std::vector<Owner> shared;
@@ -106,7 +106,7 @@ void Partition::assign(Particles& p, const std::vector<double>& weight,
   Zoltan_Destroy(&zoltan);
 
   std::vector<char> is_owned(p.size(), 0);
-  for (const Owner& o : comm.gather(shared)) is_owned[o.grain] = o.rank == comm.rank();
+  for (const Owner& o : comm.gather(shared)) is_owned[o.particle] = o.rank == comm.rank();
   p.set_ownership(std::move(is_owned), std::vector<char>(p.size(), 0));
   list_owners(p, comm);
   if (comm.global_sum(p.n_owned()) != p.size())
@@ -133,11 +133,11 @@ void Partition::gather_motion(Particles& p, const Communicator& comm) const
   if (comm.is_alone()) return;
   std::vector<PackedMotion> mine(p.n_owned());
   std::size_t k = 0;
-  p.for_owned([&](Index i) { mine[k++] = pack(p.body[i]); });
+  p.for_owned([&](Index i) { mine[k++] = pack(p.state[i]); });
   const std::vector<PackedMotion> all = comm.gather(mine);
   k = 0;
-  for (const std::vector<Index>& grains : owned_by_)
-    for (const Index i : grains) unpack(all[k++], p.body[i]);
+  for (const std::vector<Index>& particles : owned_by_)
+    for (const Index i : particles) unpack(all[k++], p.state[i]);
 }
 
 } // namespace mergel::dem

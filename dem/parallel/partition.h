@@ -1,9 +1,10 @@
 /// Which rank owns which particle.
 ///
-/// Every rank numbers all particles alike and keeps an entry for each; it moves those that it
-/// owns and computes every pair and wall contact that has one of them. A pair across a border
-/// is computed on both sides from the same numbers, so no force travels back, and each particle
-/// adds its pairs in the same order everywhere: no bit depends on the number of ranks.
+/// All ranks number the particles in the same way and have an entry for each. A rank moves
+/// the particles that it owns, and computes all pairs and wall contacts of them. A pair
+/// across a border is computed on both ranks from the same numbers, so no force is sent.
+/// Each particle adds its pairs in the same order on every rank: the results have the same
+/// bits on any number of ranks (dem/README.md, Parallel execution).
 #pragma once
 
 #include "dem/parallel/communicator.h"
@@ -15,13 +16,15 @@ namespace mergel::dem {
 
 class Partition {
 public:
-  /// Distribute the particles by recursive coordinate bisection (Berger and Bokhari 1987) of
-  /// their positions, by Zoltan. Sets the ownership of `p`, without ghosts; collective.
-  /// @param weight load of each owned particle, in the order of for_owned(); empty for 1 each
+  /// Distribute the particles by recursive coordinate bisection (Berger and Bokhari 1987)
+  /// of their positions, by Zoltan. Sets the ownership of `p`, without ghosts; collective.
+  /// @param weight load of each owned particle, in the order of for_owned(); empty for 1
+  ///   each
   /// @pre x is up to date for owned particles
   void assign(Particles& p, const std::vector<double>& weight, const Communicator& comm);
 
-  /// Position, velocity and spin of every particle from its owner to all ranks; collective.
+  /// Send position, velocity and spin of every particle from its owner to all ranks;
+  /// collective.
   void gather_motion(Particles& p, const Communicator& comm) const;
 
   /// Particles of a rank, ascending. @pre assign() was called

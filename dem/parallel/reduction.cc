@@ -8,7 +8,7 @@ namespace {
 
 void add_wide(void* in, void* inout, int* n, MPI_Datatype*)
 {
-  // By copies: the buffers of MPI need not be aligned for 128 bits.
+  // By copies, because the buffers of MPI need not be aligned for 128 bits.
   for (std::size_t k = 0; k < static_cast<std::size_t>(*n) * sizeof(ExactWide);
        k += sizeof(ExactWide)) {
     ExactWide a, b;

@@ -1,4 +1,4 @@
-/// Global sums that enter the physics: exact, so that no bit depends on the number of ranks.
+/// Global sums that enter the physics: exact, with the same bits on any number of ranks.
 #pragma once
 
 #include "dem/math/exact_sum.h"
@@ -8,7 +8,7 @@
 
 namespace mergel::dem {
 
-/// Exact sums of the ranks, added up by one message: list them, then run().
+/// Adds a list of exact sums over all ranks by one reduction: add() each, then run().
 class ExactReduction {
 public:
   bool is_empty() const { return terms_.empty(); }
@@ -24,7 +24,7 @@ public:
     add(v.y);
     add(v.z);
   }
-  /// Every sum becomes that over all ranks; collective, each rank with the same list.
+  /// Replace each sum by that over all ranks; collective, with the same list on all ranks.
   void run(const Communicator& comm);
 
 private:

@@ -17,7 +17,7 @@ Vec3 strain(PeriodicCell& cell, double dt, Particles& p)
   const Vec3 growth = (Vec3::Ones() - step).cwiseInverse(); // 1 - step >= 0.999
   cell.size = cell.size.cwiseProduct(growth);
   if (growth != Vec3::Ones())
-    p.for_owned([&](Index i) { p.body[i].x = p.body[i].x.cwiseProduct(growth); });
+    p.for_owned([&](Index i) { p.state[i].x = p.state[i].x.cwiseProduct(growth); });
   return growth;
 }
 

@@ -10,7 +10,7 @@ namespace mergel::dem {
 
 namespace {
 
-Row row(const Vec3& three_of_four) // a record's row: three numbers and a fourth beside them
+Row row(const Vec3& three_of_four) // one row of a record: a vector and a fourth number
 {
   Row r;
   std::memcpy(&r, three_of_four.data(), sizeof r);
@@ -22,13 +22,13 @@ void set_row(Vec3& three_of_four, Row r)
   std::memcpy(three_of_four.data(), &r, sizeof r);
 }
 
-/// Component by component: returns the new velocity, gives what damping took. Where the force
-/// is zero, as beside the three components, the velocity stays. The sign of v is as good as
-/// random: no branch.
+/// Kick of one row, component by component. Returns the new velocity; `damped` gets the
+/// work of the damping force. A component without force, such as the fourth of a row, keeps
+/// its velocity. There is no branch, because the sign of v cannot be predicted.
 Row kicked(Row v, Row f, double alpha, double dt_over_m, double dt, Row& damped)
 {
   using Bits = decltype(v < v);
-  const Bits sign = reinterpret_cast<Bits>(-Row{}); // set in minus zero alone
+  const Bits sign = reinterpret_cast<Bits>(-Row{}); // -0.0: the sign bit alone
   const Row brake = alpha * reinterpret_cast<Row>(reinterpret_cast<Bits>(f) & ~sign);
   const Bits against = ~reinterpret_cast<Bits>(v) & sign;
   const Row drag =
@@ -38,7 +38,7 @@ Row kicked(Row v, Row f, double alpha, double dt_over_m, double dt, Row& damped)
   return v_new;
 }
 
-/// What the kick of all grains has in common.
+/// Kick of one particle, with what is the same for all particles.
 struct Kick {
   const Motion& motion;
   Row gravity;
@@ -53,20 +53,21 @@ struct Kick {
 
   void operator()(Particles& p, Index i, KickWork& work) const
   {
-    Body& b = p.body[i];
+    ParticleState& b = p.state[i];
     const Load& load = p.load[i];
     const double alpha = motion.damping;
     const Vec3 v_old = b.v;
-    Row took{};
+    Row work_of_damping{};
     const Row weight = b.m * gravity;
-    set_row(b.v, kicked(row(b.v), row(load.f) + weight, alpha, dt / b.m, dt, took));
-    double damped = 0.0 - took[0] - took[1] - took[2];
+    set_row(b.v,
+            kicked(row(b.v), row(load.f) + weight, alpha, dt / b.m, dt, work_of_damping));
+    double damped = 0.0 - work_of_damping[0] - work_of_damping[1] - work_of_damping[2];
     if (p.n_bonds[i] > 0 || motion.free_rotation) {
-      set_row(b.omega,
-              kicked(row(b.omega), row(load.t), alpha, dt / b.inertia(), dt, took));
-      damped = damped - took[0] - took[1] - took[2];
+      set_row(b.omega, kicked(row(b.omega), row(load.t), alpha, dt / b.inertia(), dt,
+                              work_of_damping));
+      damped = damped - work_of_damping[0] - work_of_damping[1] - work_of_damping[2];
     } else if (b.omega != Vec3::Zero()) {
-      work.lock.add(0.5 * b.inertia() * b.omega.squaredNorm());
+      work.rotation_constraint.add(0.5 * b.inertia() * b.omega.squaredNorm());
       b.omega.setZero();
     }
     work.damping.add(damped);
@@ -76,19 +77,19 @@ struct Kick {
 
 [[noreturn]] void refuse_motion(const Particles& p, Index i, double dt)
 {
-  const Body& b = p.body[i];
+  const ParticleState& b = p.state[i];
   const std::string remedy = " in one step (at most 0.05): lower `Motion/time step safety`";
-  const double moved = dt * b.v.norm() / b.R, turned = dt * b.omega.norm();
+  const double moved = dt * b.v.norm() / b.R, rotated = dt * b.omega.norm();
   const std::string who = "particle " + std::to_string(p.id[i]);
   if (!(moved <= 0.05))
     throw NumericalError(who + " moves " + std::to_string(moved) + " radii" + remedy);
-  throw NumericalError(who + " turns by " + std::to_string(turned) + " rad" + remedy);
+  throw NumericalError(who + " turns by " + std::to_string(rotated) + " rad" + remedy);
 }
 
-/// Returns the square of the motion over S [m^2].
+/// Move one particle. Returns the square of its motion over S [m^2].
 double drift_one(Particles& p, Index i, double dt)
 {
-  Body& b = p.body[i];
+  ParticleState& b = p.state[i];
   const Vec3 dx = dt * b.v;
   const double moved2 = dx.squaredNorm();
   if (!(moved2 <= 0.05 * 0.05 * b.R * b.R) ||
@@ -115,12 +116,12 @@ double kick_and_drift(Particles& p, const Motion& motion, double dt_kick, double
                       KickWork& work)
 {
   const Kick kick_one(motion, dt_kick);
-  double most2 = 0.0;
+  double max2 = 0.0;
   p.for_owned([&](Index i) {
     kick_one(p, i, work);
-    most2 = std::max(most2, drift_one(p, i, dt));
+    max2 = std::max(max2, drift_one(p, i, dt));
   });
-  return std::sqrt(most2);
+  return std::sqrt(max2);
 }
 
 void clear_loads(Particles& p)
@@ -133,7 +134,7 @@ EnergySum kinetic_energy_sum(const Particles& p)
 {
   EnergySum e;
   p.for_owned([&](Index i) {
-    const Body& b = p.body[i];
+    const ParticleState& b = p.state[i];
     e.add(0.5 * (b.m * b.v.squaredNorm() + b.inertia() * b.omega.squaredNorm()));
   });
   return e;
@@ -143,7 +144,7 @@ ForceSum sum_of_resultants(const Particles& p, const Motion& motion)
 {
   ForceSum sum;
   p.for_owned(
-      [&](Index i) { sum.add((p.load[i].f + p.body[i].m * motion.gravity).norm()); });
+      [&](Index i) { sum.add((p.load[i].f + p.state[i].m * motion.gravity).norm()); });
   return sum;
 }
 

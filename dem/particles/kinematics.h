@@ -1,12 +1,12 @@
-/// Relative motion of two spheres at their contact point, and how history turns with the
-/// pair.
+/// Relative motion of two particles at their contact point, and the rotation of history
+/// vectors with the contact frame.
 #pragma once
 
 #include "dem/math/simd.h"
 
 namespace mergel::dem {
 
-/// One end of a pair, or of a batch of them.
+/// One particle of a pair, or of a batch of pairs.
 template <class Real>
 struct End {
   Triple<Real> x;     ///< centre [m]
@@ -18,9 +18,9 @@ struct End {
 
 /// Kinematics of a pair over the step that ends now.
 ///
-/// The contact point is x_i + a_i n, a_i = R_i + gap/2, so that a_i + a_j = |x_j - x_i| for
-/// either sign of the gap and force and torque are in balance. Arms R_i and R_j would leave
-/// a spurious shear of gap times rotation.
+/// The contact point is x_i + a_i n, a_i = R_i + gap/2. Then a_i + a_j = |x_j - x_i| for
+/// either sign of the gap, and forces and torques balance. Arms of R_i and R_j would add a
+/// spurious shear of gap times rotation (dem/README.md, Contact geometry).
 template <class Real>
 struct PairMotion {
   Triple<Real> n; ///< unit normal from i to j
@@ -30,17 +30,18 @@ struct PairMotion {
   Real a_i, a_j;  ///< arms [m]
   Real du_n;      ///< growth of the gap in this step [m]
   Triple<Real>
-      du_s; ///< shear of j against i at the contact point in this step, normal to n [m]
-  Triple<Real> dtheta; ///< spin of j against i in this step, its part normal to n [rad]
+      du_s; ///< shear of j relative to i at the contact point in this step, normal to n [m]
+  Triple<Real> dtheta; ///< rotation of j relative to i in this step, normal to n [rad]
   Real dphi;           ///< the same about n [rad]
-  Triple<Real> tilt;   ///< n - n_old to first order: turn of the pair in this step [-]
-  Real twist;          ///< turn of the pair about n, the mean of both spins [rad]
+  Triple<Real> dn;     ///< n - n_old to first order [-]: the rotation of n in this step
+  Real rotation_n;     ///< rotation of the pair about n by the mean spin [rad]
 };
 
 /// Centres must not coincide (the division is by their distance). dt [s] is the step that
-/// brought x to its place with v, so r - dt (v_j - v_i) is exactly where the pair was.
-/// @param share of the gap that belongs to the arm of i: 1/2 between grains, 1 at a point
-///   on a wall
+/// moved the centres to x with v, so r - dt (v_j - v_i) is exactly r at the start of the
+/// step.
+/// @param share part of the gap that belongs to the arm of i: 1/2 between particles, 1 at a
+///   point on a wall
 template <class Real>
 [[gnu::always_inline]] inline PairMotion<Real>
 pair_motion(const End<Real>& i, const End<Real>& j, double dt, double share = 0.5)
@@ -58,10 +59,10 @@ pair_motion(const End<Real>& i, const End<Real>& j, double dt, double share = 0.
   k.a_j = d - k.a_i;
 
   const Triple<Real> dv = j.v - i.v;
-  k.tilt = (dv - k.n * dot(dv, k.n)) * (dt * inv_d);
-  // The chord dt dv belongs to the normal half way: with the normal at its end a rigid turn
-  // would leave a shear of first order in the step.
-  const Triple<Real> n_mid = k.n - k.tilt * 0.5;
+  k.dn = (dv - k.n * dot(dv, k.n)) * (dt * inv_d);
+  // The chord dt dv belongs to the normal at mid-step. The normal at the end of the step
+  // would give a rigidly rotating pair a shear of first order in dt.
+  const Triple<Real> n_mid = k.n - k.dn * 0.5;
   const Real v_n = dot(dv, n_mid);
   const Triple<Real> v_s =
       dv - n_mid * v_n - cross(i.omega * k.a_i + j.omega * k.a_j, n_mid);
@@ -71,24 +72,24 @@ pair_motion(const End<Real>& i, const End<Real>& j, double dt, double share = 0.
   const Real spin_n = dot(spin, k.n);
   k.dtheta = (spin - k.n * spin_n) * dt;
   k.dphi = spin_n * dt;
-  k.twist = 0.5 * dt * dot(i.omega + j.omega, k.n);
+  k.rotation_n = 0.5 * dt * dot(i.omega + j.omega, k.n);
   return k;
 }
 
-/// A history vector carried with the pair: the minimal rotation of n_old to n, then the
-/// twist.
+/// A history vector rotated with the contact frame: by the smallest rotation that takes
+/// n_old to n, then by the rotation about n (dem/README.md, History vectors).
 ///
-///   V <- V - (V.n) (n - tilt/2)            = V - (n.V)/(1+n.n_old) (n+n_old) to third order
-///   V <- V + twist n x V - twist^2/2 V     a rotation to fourth order in its length
+///   V <- V - (V.n) (n - dn/2)             = V - (n.V)/(1+n.n_old) (n+n_old) to third order
+///   V <- V + phi n x V - phi^2/2 V        phi = rotation_n: length kept to fourth order
 ///
-/// The result is normal to n exactly when V was normal to n_old. A full turn in N steps
-/// leaves an error of about 250/N^2, measured 2.5e-8 at N = 1e5.
+/// A V that was normal to n_old is normal to n exactly. A full turn in N steps leaves a
+/// relative error of about 250/N^2, measured 2.5e-8 at N = 1e5.
 template <class Real>
-[[gnu::always_inline]] inline Triple<Real> turned(const Triple<Real>& V,
-                                                  const PairMotion<Real>& k)
+[[gnu::always_inline]] inline Triple<Real> rotated_with_contact(const Triple<Real>& V,
+                                                                const PairMotion<Real>& k)
 {
-  const Triple<Real> W = V - (k.n - k.tilt * 0.5) * dot(V, k.n);
-  return W * (1.0 - 0.5 * k.twist * k.twist) + cross(k.n, W) * k.twist;
+  const Triple<Real> W = V - (k.n - k.dn * 0.5) * dot(V, k.n);
+  return W * (1.0 - 0.5 * k.rotation_n * k.rotation_n) + cross(k.n, W) * k.rotation_n;
 }
 
 } // namespace mergel::dem

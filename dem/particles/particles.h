@@ -1,4 +1,4 @@
-/// Grains: what each of them is, how it moves and what acts on it.
+/// Particles: their state, the loads on them, and which rank owns them.
 #pragma once
 
 #include "dem/notation.h"
@@ -8,10 +8,10 @@
 
 namespace mergel::dem {
 
-/// What the pair loop reads of a grain, together in 96 bytes: three rows of four numbers,
-/// loaded for a batch of pairs at a time. Separate arrays cost 1.5 times as much here, one cache
-/// miss each.
-struct alignas(32) Body {
+/// What the pair loop reads of a particle, in 96 bytes: three rows of four numbers, loaded
+/// for a batch of pairs at a time. Separate arrays take 1.5 times as long, for each of them
+/// costs a cache miss.
+struct alignas(32) ParticleState {
   Vec3 x = Vec3::Zero();     ///< position [m]; never wrapped into a periodic cell
   double R = 0.0;            ///< radius [m]
   Vec3 v = Vec3::Zero();     ///< velocity [m/s], half a step behind x
@@ -21,9 +21,9 @@ struct alignas(32) Body {
 
   double inertia() const { return 0.4 * m * R * R; } ///< solid sphere [kg m^2]
 };
-static_assert(sizeof(Body) == 96);
+static_assert(sizeof(ParticleState) == 96);
 
-/// What the pair loop adds to: resultant on a grain, two rows of four numbers.
+/// Resultants on a particle, which the pair loop adds to: two rows of four numbers.
 struct alignas(32) Load {
   Vec3 f = Vec3::Zero(); ///< resultant force [N]
   double pad_f = 0.0;
@@ -37,24 +37,24 @@ struct IndexRange {
   Index begin, end;
 };
 
-/// Structure of arrays: index p names the same grain in every array and on every rank.
+/// Structure of arrays: index p names the same particle in every array and on every rank.
 ///
-/// A rank owns some of them and moves these. Of the others it keeps the ghosts up to date,
-/// those that act on grains of its own; the rest of its arrays is as old as the last list
-/// (dem/parallel/partition.h).
+/// A rank moves the particles that it owns. It keeps its ghosts up to date, the particles
+/// of other ranks that act on its own. All other entries are as old as the last neighbour
+/// list (dem/parallel/partition.h).
 struct Particles {
-  std::vector<Body> body;
-  std::vector<Load> load;        ///< whole for owned grains, in part for ghosts
+  std::vector<ParticleState> state;
+  std::vector<Load> load;        ///< complete for owned particles, partial for ghosts
   std::vector<std::uint64_t> id; ///< global, never reused, ascending
-  std::vector<int> n_bonds;      ///< living bonds, those to walls and mirror image included
+  std::vector<int> n_bonds;      ///< intact bonds, with those to walls and mirror image
   std::vector<double> strength;  ///< factor of bond strengths [-]; empty: 1 (strength.h)
 
-  std::size_t size() const { return body.size(); }
+  std::size_t size() const { return state.size(); }
   std::size_t n_owned() const { return n_owned_; }
   bool owns(Index p) const { return is_owned_[p] != 0; }
-  /// Owned grains, ascending, in as few runs as their numbering allows.
+  /// Owned particles, ascending, in the smallest possible number of ranges.
   const std::vector<IndexRange>& owned() const { return owned_; }
-  /// Owned grains and ghosts.
+  /// Owned particles and ghosts.
   const std::vector<IndexRange>& present() const { return present_; }
 
   template <class Visit>
@@ -64,11 +64,11 @@ struct Particles {
       for (Index p = r.begin; p < r.end; ++p) visit(p);
   }
 
-  /// Append an owned grain; its id is its place. Only while all are owned.
-  Index add(const Body& b)
+  /// Append an owned particle; its id is its index. @pre all particles are owned
+  Index add(const ParticleState& b)
   {
     const auto p = static_cast<Index>(size());
-    body.push_back(b);
+    state.push_back(b);
     load.emplace_back();
     id.push_back(p);
     n_bonds.push_back(0);
@@ -78,7 +78,7 @@ struct Particles {
     return p;
   }
 
-  /// @param is_owned, is_ghost one entry a grain, never both set
+  /// @param is_owned, is_ghost one entry per particle, never both set
   void set_ownership(std::vector<char> is_owned, const std::vector<char>& is_ghost)
   {
     n_owned_ = 0;

@@ -15,7 +15,7 @@ Bonding choose_bonds(const SpecimenSpec& s, const Particles& p, const PeriodicCe
   };
   std::vector<Candidate> candidates;
   for (const Pair& q : find_pairs(p, cell, s.g_b)) {
-    const Body &i = p.body[q.i], &j = p.body[q.j];
+    const ParticleState &i = p.state[q.i], &j = p.state[q.j];
     const double gap = (j.x + cell.offset(q.shift) - i.x).norm() - (i.R + j.R);
     candidates.push_back({gap / (0.5 * (i.S + j.S)), q});
   }

@@ -1,4 +1,4 @@
-/// Which grains of a specimen are bonded.
+/// Which particles of a specimen are bonded.
 #pragma once
 
 #include "dem/pairs/pairs.h"
@@ -6,7 +6,7 @@
 
 namespace mergel::dem {
 
-/// The bonds of a specimen and the gap they reached.
+/// The bonds of a specimen and their largest gap.
 struct Bonding {
   std::vector<Pair> pairs; ///< ascending
   double limit = 0.0;      ///< largest bonded gap/S [m]

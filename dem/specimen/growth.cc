@@ -7,17 +7,17 @@ namespace mergel::dem {
 
 namespace {
 
-constexpr double relaxation =
-    0.3; // of each overlap per sweep; 1/3 is the limit at 12 neighbours
-constexpr double memory = 0.8;       // heavy ball
-constexpr double longest_move = 0.2; // of the radius
+// Share of each overlap that a sweep removes; with 12 neighbours 1/3 is the limit.
+constexpr double relaxation = 0.3;
+constexpr double memory = 0.8;       // share of the last move (heavy-ball method)
+constexpr double longest_move = 0.2; // over the radius
 constexpr int n_growing = 150;       // sweeps over which the sizes grow
 
 } // namespace
 
 Growth::Growth(Particles& p, const Region& region, double g_a, double skin)
     : p_(p), region_(region), cell_(cell_of(region)), g_a_(g_a), skin_(skin),
-      push_(p.size()), move_(p.size(), Vec3::Zero())
+      separation_(p.size()), move_(p.size(), Vec3::Zero())
 {
 }
 
@@ -25,7 +25,7 @@ bool Growth::is_stale() const
 {
   if (x_listed_.empty()) return true;
   for (std::size_t i = 0; i < p_.size(); ++i)
-    if ((p_.body[i].x - x_listed_[i]).norm() > 0.5 * skin_ * p_.body[i].S) return true;
+    if ((p_.state[i].x - x_listed_[i]).norm() > 0.5 * skin_ * p_.state[i].S) return true;
   return false;
 }
 
@@ -33,15 +33,15 @@ void Growth::rebuild()
 {
   pairs_ = find_pairs(p_, cell_, g_a_ + skin_);
   x_listed_.resize(p_.size());
-  for (std::size_t i = 0; i < p_.size(); ++i) x_listed_[i] = p_.body[i].x;
+  for (std::size_t i = 0; i < p_.size(); ++i) x_listed_[i] = p_.state[i].x;
 }
 
-double Growth::push_pairs(double size)
+double Growth::separate_pairs(double size)
 {
   double worst = 0.0;
   n_overlaps_ = 0;
   for (const Pair& q : pairs_) {
-    const Body &i = p_.body[q.i], &j = p_.body[q.j];
+    const ParticleState &i = p_.state[q.i], &j = p_.state[q.j];
     const double reach = size * (i.R + j.R + 0.5 * g_a_ * (i.S + j.S));
     const Vec3 r = j.x + cell_.offset(q.shift) - i.x;
     const double d2 = r.squaredNorm();
@@ -50,24 +50,24 @@ double Growth::push_pairs(double size)
     const double d = std::sqrt(d2), overlap = reach - d;
     worst = std::max(worst, overlap / reach);
     const Vec3 n = d > 0.0 ? Vec3(r / d) : Vec3::UnitX();
-    push_[q.i] -= 0.5 * overlap * n;
-    push_[q.j] += 0.5 * overlap * n;
+    separation_[q.i] -= 0.5 * overlap * n;
+    separation_[q.j] += 0.5 * overlap * n;
   }
   return worst;
 }
 
 template <class Shape>
-double Growth::push_from_boundaries(const Shape& shape, double size)
+double Growth::separate_from_boundaries(const Shape& shape, double size)
 {
   double worst = 0.0;
   for (std::size_t i = 0; i < p_.size(); ++i) {
-    const Body& b = p_.body[i];
+    const ParticleState& b = p_.state[i];
     const double R = size * b.R, shell = R + 0.5 * size * g_a_ * b.S;
     visit_boundaries(shape, b.x, R,
                      [&](double clearance, const Vec3& inwards, Boundary boundary) {
                        const double needed = boundary == Boundary::cut ? shell : R;
                        if (clearance >= needed) return;
-                       push_[i] += (needed - clearance) * inwards;
+                       separation_[i] += (needed - clearance) * inwards;
                        worst = std::max(worst, (needed - clearance) / needed);
                      });
   }
@@ -77,21 +77,21 @@ double Growth::push_from_boundaries(const Shape& shape, double size)
 void Growth::move()
 {
   for (std::size_t i = 0; i < p_.size(); ++i) {
-    move_[i] = memory * move_[i] + relaxation * push_[i];
-    const double limit = longest_move * p_.body[i].R, length = move_[i].norm();
+    move_[i] = memory * move_[i] + relaxation * separation_[i];
+    const double limit = longest_move * p_.state[i].R, length = move_[i].norm();
     if (length > limit) move_[i] *= limit / length;
-    p_.body[i].x += move_[i];
+    p_.state[i].x += move_[i];
   }
 }
 
 double Growth::sweep(double size)
 {
   if (is_stale()) rebuild();
-  std::fill(push_.begin(), push_.end(), Vec3::Zero());
-  double worst = push_pairs(size);
+  std::fill(separation_.begin(), separation_.end(), Vec3::Zero());
+  double worst = separate_pairs(size);
   worst = std::max(
       worst,
-      std::visit([&](const auto& shape) { return push_from_boundaries(shape, size); },
+      std::visit([&](const auto& shape) { return separate_from_boundaries(shape, size); },
                  region_));
   move();
   return worst;
@@ -100,14 +100,14 @@ double Growth::sweep(double size)
 double grow(Growth& growth, const Sweeps& sweeps,
             const std::function<void(double)>& progress)
 {
-  const int n_swelling = sweeps.from < 1.0 ? n_growing : 0;
+  const int n_growth_sweeps = sweeps.from < 1.0 ? n_growing : 0;
   double worst = 0.0;
   for (int k = 0; k < sweeps.most; ++k) {
     const double size =
-        k < n_swelling ? sweeps.from + (1.0 - sweeps.from) * k / n_swelling : 1.0;
+        k < n_growth_sweeps ? sweeps.from + (1.0 - sweeps.from) * k / n_growth_sweeps : 1.0;
     worst = growth.sweep(size);
     if (k % 20 == 0) progress(static_cast<double>(k) / sweeps.most);
-    if (k >= n_swelling && worst < sweeps.tolerance) break;
+    if (k >= n_growth_sweeps && worst < sweeps.tolerance) break;
   }
   return worst;
 }

@@ -1,5 +1,5 @@
-/// Growth of a cloud: spheres with their far-field shells swell and push each other apart,
-/// overdamped and without friction.
+/// Growth of a packing: particles with their far-field shells grow and move each other
+/// apart, overdamped and without friction.
 #pragma once
 
 #include "dem/pairs/neighbours.h"
@@ -9,29 +9,30 @@
 
 namespace mergel::dem {
 
-/// Sweeps over all overlaps, each removing a share of them, with a memory of the last sweep.
+/// Sweeps over all overlaps. A sweep removes a share of each overlap and adds a share of
+/// the last move.
 class Growth {
 public:
-  /// @param g_a  shells: two grains keep a gap of g_a (S_i + S_j)/2 [m]
+  /// @param g_a  activation gap at S = 1 [m]: shells keep a gap of g_a (S_i + S_j)/2
   /// @param skin margin of the list of pairs at S = 1 [m], > 0
   /// `p` and `region` must outlive it.
   Growth(Particles& p, const Region& region, double g_a, double skin);
 
-  /// One sweep at this share of all sizes. Returns the largest overlap that it met, shells
-  /// included, over the distance at which the pair would not overlap.
+  /// One sweep with all sizes times `size`. Returns the largest overlap before the moves,
+  /// shells included, over the distance at which the pair would not overlap.
   double sweep(double size);
 
   std::size_t n_overlaps() const
   {
     return n_overlaps_;
-  } ///< of pairs, met by the last sweep
+  } ///< overlapping pairs in the last sweep
 
 private:
   bool is_stale() const;
   void rebuild();
-  double push_pairs(double size);
+  double separate_pairs(double size);
   template <class Shape>
-  double push_from_boundaries(const Shape& shape, double size);
+  double separate_from_boundaries(const Shape& shape, double size);
   void move();
 
   Particles& p_;
@@ -39,19 +40,20 @@ private:
   PeriodicCell cell_;
   double g_a_, skin_;
   std::vector<Pair> pairs_;
-  std::vector<Vec3> x_listed_, push_, move_;
+  std::vector<Vec3> x_listed_, separation_, move_;
   std::size_t n_overlaps_ = 0;
 };
 
-/// Sweeps that make a packing.
+/// Sweeps of grow().
 struct Sweeps {
-  double from = 0.6; ///< share of the sizes at the start; 1 only unjams
-  double tolerance;  ///< overlap at which the packing counts as unjammed [-]
-  int most;          ///< sweeps, those of the swelling included
+  double from = 0.6; ///< factor of the sizes at the start [-]; 1: no growth
+  double tolerance;  ///< overlap below which the packing counts as unjammed [-]
+  int most;          ///< largest number of sweeps, growth included
 };
 
-/// Swell to full size, then sweep until no overlap exceeds the tolerance or the sweeps are
-/// spent. Returns the largest that is left. `progress` gets a fraction of the work.
+/// Grow to full size, then sweep until no overlap exceeds the tolerance or the number of
+/// sweeps is reached. Returns the largest overlap left. `progress` gets a fraction of the
+/// work.
 double grow(Growth& growth, const Sweeps& sweeps,
             const std::function<void(double)>& progress);
 

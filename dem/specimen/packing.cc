@@ -17,30 +17,32 @@ namespace mergel::dem {
 
 namespace {
 
-/// Spheres with their shells cannot fill more of a region at random: monodisperse random
-/// close packing is 0.64, gradings and soft shells reach a little more.
+/// Largest volume fraction of particles with their shells in a random packing. Monodisperse
+/// random close packing is 0.64; graded sizes and soft shells reach a little more.
 constexpr double densest_fraction = 0.68;
 
-/// Grains that press on each other may; beyond this they would overlap by a tenth of their
-/// diameter, where the contact law says nothing of rock.
+/// The same under pressure. Above it particles would overlap by a tenth of their diameter,
+/// where the contact law does not represent rock any more.
 constexpr double densest_pressed_fraction = 0.9;
 
-/// Spheres without friction press on each other from random close packing on, 0.64. Growth comes
-/// a little less far: of 6 boxes of 600 and 1500 grains all came apart at 0.629, none but
-/// one at 0.637.
+/// Largest fraction at which growth finds a packing without pressure. The limit without
+/// friction is random close packing, 0.64. Measured: of 6 boxes of 600 and 1500 particles
+/// all were unjammed at 0.629, one at 0.637.
 constexpr double jammed_fraction = 0.63;
 
-/// Under a pressure frictional spheres fill at least random loose packing, 0.55 (Onoda and
-/// Liniger 1990, Phys. Rev. Lett. 64, 2727); a few hundred in a box, measured, 0.52.
+/// Smallest fraction of frictional spheres that bear a pressure. Random loose packing is
+/// 0.55 (Onoda and Liniger 1990, Phys. Rev. Lett. 64, 2727); measured 0.52 for a few
+/// hundred particles in a box.
 constexpr double loosest_fraction = 0.52;
 
-/// Of the distance: more than this is a packing under pressure, some 10 kPa for grains of 1 GPa.
+/// Largest overlap of an unjammed packing, over the distance [-]. It causes a pressure of
+/// about 10 kPa for a contact modulus of 1 GPa.
 constexpr double jammed_overlap = 1e-3;
 
-/// Porosity at which the shells would fill this fraction.
+/// Porosity at which the particles with their shells fill this volume fraction.
 double porosity_at(const SpecimenSpec& s, double fraction)
 {
-  return 1.0 - (1.0 - s.porosity) * fraction / effective_solid_fraction(s); // > 0: spheres
+  return 1.0 - (1.0 - s.porosity) * fraction / effective_solid_fraction(s); // > 0
 }
 
 } // namespace
@@ -57,8 +59,9 @@ void SpecimenSpec::check() const
   dem::check(region);
   require(scale.S_inner > 0.0 && scale.S_outer > 0.0, "upscaling ratios must be positive");
   require(porosity > 0.0 && porosity < 1.0, "porosity must lie in (0, 1)");
-  require(most_grains(*this) <= grains_limit, "the region may hold more than 2e7 grains: "
-                                              "raise the upscaling ratio or the diameters");
+  require(max_particles(*this) <= particles_limit,
+          "the region may hold more than 2e7 particles: "
+          "raise the upscaling ratio or the diameters");
   require(compaction != Compaction::confined || pressure > 0.0,
           "the pressure of a confined specimen must be positive");
   require(friction >= 0.0, "friction must not be negative");
@@ -72,19 +75,19 @@ void SpecimenSpec::check() const
     text.precision(3);
     text << "must be at least " << porosity_at(*this, most) << " and ";
     if (compaction == Compaction::confined)
-      text << "at most some " << porosity_at(*this, loosest_fraction)
-           << ", where grains still bear a pressure";
+      text << "at most about " << porosity_at(*this, loosest_fraction)
+           << ", above which particles bear no pressure";
     else
       text << "below 1";
-    text << ": with it the spheres with their far-field shell would fill " << fraction
-         << " of the volume, "
-         << (compaction == Compaction::expanded ? "pressed together" : "at random")
+    text << ": at this porosity the particles with their far-field shells would fill "
+         << fraction << " of the volume, but "
+         << (compaction == Compaction::expanded ? "under pressure" : "at random")
          << " they fill at most " << most
          << ". Raise the porosity or lower the activation gap";
     throw InputError(text.str());
   }
-  require(least_width(region) > width_needed(*this),
-          "the largest grain does not fit the region");
+  require(smallest_width(region) > width_needed(*this),
+          "the largest particle does not fit the region");
 }
 
 double width_needed(const SpecimenSpec& s)
@@ -92,12 +95,12 @@ double width_needed(const SpecimenSpec& s)
   const double S = std::max(s.scale.S_inner, s.scale.S_outer);
   if (!std::holds_alternative<PeriodicBox>(s.region)) return 2.0 * S * s.sizes.largest();
   const double margin =
-      usual_skin + (s.compaction == Compaction::unjammed ? 0.0 : growth_reserve);
+      default_skin + (s.compaction == Compaction::unjammed ? 0.0 : growth_reserve);
   const double range = std::max(s.contact.g_a + margin * s.sizes.smallest(), s.g_b);
-  return least_edge(s.sizes.largest(), range, S);
+  return smallest_edge(s.sizes.largest(), range, S);
 }
 
-double most_grains(const SpecimenSpec& s)
+double max_particles(const SpecimenSpec& s)
 {
   const double S = std::min(s.scale.S_inner, s.scale.S_outer);
   return (1.0 - s.porosity) * volume(s.region) /
@@ -111,12 +114,13 @@ double effective_solid_fraction(const SpecimenSpec& s)
 
 namespace {
 
-/// Numbered along Morton's curve.
-Particles in_order(const Region& region, const std::vector<Body>& born)
+/// The particles, numbered along a Morton curve.
+Particles in_order(const Region& region, const std::vector<ParticleState>& born)
 {
   const Bounds box = bounds(region);
   const Vec3 extent = box.high - box.low;
-  // Of the cube that is cut into 2^30 places; larger than the region, as in earlier samples.
+  // Edge of a cell of the 1024^3 Morton grid. The cube is larger than the region: this
+  // keeps the numbering of existing samples.
   const double edge = std::max({extent.x(), extent.y(), 2.0 * extent.z()}) / 1023.0; // > 0
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   for (std::size_t k = 0; k < born.size(); ++k) {
@@ -132,59 +136,61 @@ Particles in_order(const Region& region, const std::vector<Body>& born)
   return p;
 }
 
-/// Diameters, ratios and ids of grains of this total volume [m^3], at random places, with
-/// overlaps.
-Particles draw_grains(const SpecimenSpec& s, double target)
+/// Particles of this total volume [m^3] at random positions, with overlaps: diameters,
+/// upscaling ratios and ids.
+Particles draw_particles(const SpecimenSpec& s, double target)
 {
-  const double S_least = std::min(s.scale.S_inner, s.scale.S_outer);
-  std::vector<Body> born;
+  const double S_smallest = std::min(s.scale.S_inner, s.scale.S_outer);
+  std::vector<ParticleState> born;
   double volume = 0.0;
   for (std::uint64_t trial = 0;; ++trial) {
     const auto u = [&](std::uint64_t draw) { return uniform(s.seed, trial, draw); };
-    Body b;
+    ParticleState b;
     b.x = place(s.region, {u(0), u(1), u(2)});
     if (depth(s.region, b.x) < 0.0) continue;
     b.S = s.scale.at(axis_distance(s.region, b.x));
-    const double keep = S_least / b.S;
+    const double keep = S_smallest / b.S;
     if (u(3) > keep * keep * keep) continue;
     b.R = 0.5 * b.S * s.sizes.diameter(u(4));
     b.m = sphere_mass(b.R, s.rho);
     const double v = sphere_mass(b.R, 1.0);
-    if (volume + 0.5 * v > target) break; // the nearest whole number of grains
+    if (volume + 0.5 * v > target) break; // nearest to the target
     volume += v;
     born.push_back(b);
   }
   return in_order(s.region, born);
 }
 
-double grow_cloud(const SpecimenSpec& s, Particles& p, const Sweeps& sweeps,
-                  const std::function<void(double)>& progress)
+double grow_packing(const SpecimenSpec& s, Particles& p, const Sweeps& sweeps,
+                    const std::function<void(double)>& progress)
 {
-  Growth growth(p, s.region, s.contact.g_a, usual_skin * s.sizes.smallest());
+  Growth growth(p, s.region, s.contact.g_a, default_skin * s.sizes.smallest());
   return grow(growth, sweeps, progress);
 }
 
-/// Each grain's image inside the box.
+/// Move each particle to its image inside the box.
 void wrap_into(const PeriodicCell& cell, Particles& p)
 {
-  for (Body& b : p.body)
+  for (ParticleState& b : p.state)
     for (int a = 0; a < 3; ++a)
       if (cell.size[a] > 0.0) b.x[a] -= cell.size[a] * std::floor(b.x[a] / cell.size[a]);
 }
 
-/// Unjam what was grown, or throw.
+/// Sweep the grown packing until it is unjammed.
+/// @throws InputError when overlaps remain
 void finish_unjammed(const SpecimenSpec& s, Packing& packing, double tolerance,
                      const std::function<void(double)>& progress)
 {
   constexpr int sweeps_to_finish = 8000;
   packing.overlap =
-      grow_cloud(s, packing.particles, {1.0, tolerance, sweeps_to_finish}, progress);
+      grow_packing(s, packing.particles, {1.0, tolerance, sweeps_to_finish}, progress);
   std::ostringstream text;
   text.precision(3);
-  text << "cannot be reached unjammed: grains and walls still overlap by "
+  text << "cannot be reached unjammed: particles and walls still overlap by "
        << packing.overlap << " of their distance (at most " << jammed_overlap
-       << "); these grains come apart between some " << porosity_at(s, jammed_fraction)
-       << " and 1; raise the porosity or lower `Contact/activation gap`";
+       << "); these particles are unjammed at porosities from about "
+       << porosity_at(s, jammed_fraction)
+       << " to 1; raise the porosity or lower `Contact/activation gap`";
   require(packing.overlap <= jammed_overlap, text.str());
 }
 
@@ -201,17 +207,17 @@ void measure_porosity(const SpecimenSpec& s, Packing& packing)
 Packing pack(const SpecimenSpec& s, const std::function<void(double)>& progress,
              MPI_Comm comm)
 {
-  constexpr int most_draws = 5, sweeps_to_judge = 800;
+  constexpr int max_draws = 5, sweeps_to_judge = 800;
   constexpr double tolerance_n = 0.004, tolerance_overlap = 1e-4;
   double solid = 1.0 - s.porosity; // of the whole region
   Packing packing;
   packing.cell = cell_of(s.region);
   const auto settling = [&](double part) { progress(0.2 + 0.8 * part); };
-  for (int draw = 0; draw < most_draws; ++draw) {
-    packing.particles = draw_grains(s, solid * volume(s.region));
-    const auto report = [&](double part) { progress((draw + part) / most_draws); };
-    packing.overlap =
-        grow_cloud(s, packing.particles, {0.6, tolerance_overlap, sweeps_to_judge}, report);
+  for (int draw = 0; draw < max_draws; ++draw) {
+    packing.particles = draw_particles(s, solid * volume(s.region));
+    const auto report = [&](double part) { progress((draw + part) / max_draws); };
+    packing.overlap = grow_packing(s, packing.particles,
+                                   {0.6, tolerance_overlap, sweeps_to_judge}, report);
     measure_porosity(s, packing);
     if (std::abs(packing.porosity - s.porosity) < tolerance_n) {
       switch (s.compaction) {
@@ -231,7 +237,7 @@ Packing pack(const SpecimenSpec& s, const std::function<void(double)>& progress,
     }
     solid += packing.porosity - s.porosity;
   }
-  throw InputError("cannot be reached: after " + std::to_string(most_draws) +
+  throw InputError("cannot be reached: after " + std::to_string(max_draws) +
                    " draws the core has a porosity of " + std::to_string(packing.porosity) +
                    ", wanted " + std::to_string(s.porosity) +
                    "; enlarge the region or lower the upscaling ratio");
@@ -239,9 +245,9 @@ Packing pack(const SpecimenSpec& s, const std::function<void(double)>& progress,
 
 SizeReport describe_sizes(const Grading& wanted, const Particles& p)
 {
-  std::vector<double> d; // at S = 1, with their mass to a common factor
+  std::vector<double> d; // at S = 1; their mass is proportional to d^3
   double mass = 0.0;
-  for (const Body& b : p.body) {
+  for (const ParticleState& b : p.state) {
     d.push_back(2.0 * b.R / b.S);
     mass += d.back() * d.back() * d.back();
   }
@@ -251,7 +257,7 @@ SizeReport describe_sizes(const Grading& wanted, const Particles& p)
   for (std::size_t k = 0; k < d.size(); ++k) {
     const double n = static_cast<double>(d.size());
     const double after = below + d[k] * d[k] * d[k] / mass;
-    // The steps of the made curve lie above and below the wanted one.
+    // The made curve is a step function: both ends of a step are compared.
     const auto gap = [](double wanted_share, double low, double high) {
       return std::max(std::abs(wanted_share - low), std::abs(wanted_share - high));
     };
@@ -271,11 +277,11 @@ SizeReport describe_sizes(const Grading& wanted, const Particles& p)
   return r;
 }
 
-GrainRange describe_grains(const Particles& p)
+ParticleRange describe_particles(const Particles& p)
 {
-  GrainRange r;
+  ParticleRange r;
   r.S_min = r.d_min = std::numeric_limits<double>::infinity();
-  for (const Body& b : p.body) {
+  for (const ParticleState& b : p.state) {
     r.S_min = std::min(r.S_min, b.S);
     r.S_max = std::max(r.S_max, b.S);
     r.d_min = std::min(r.d_min, 2.0 * b.R);

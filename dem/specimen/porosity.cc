@@ -20,7 +20,7 @@ public:
     solid_.assign(static_cast<std::size_t>(n_[0] * n_[1] * n_[2]), false);
   }
 
-  void fill(const Body& b)
+  void fill(const ParticleState& b)
   {
     const Vec3 c = (b.x - low_) / h_;
     const double R = b.R / h_;
@@ -72,7 +72,7 @@ private:
 double solid_volume(const Particles& p)
 {
   double v = 0.0;
-  for (const Body& b : p.body) v += sphere_mass(b.R, 1.0);
+  for (const ParticleState& b : p.state) v += sphere_mass(b.R, 1.0);
   return v;
 }
 
@@ -81,16 +81,16 @@ double core_porosity(const Region& region, const Particles& p)
   if (std::holds_alternative<PeriodicBox>(region))
     return 1.0 - solid_volume(p) / volume(region);
 
-  double d_least = std::numeric_limits<double>::infinity(), margin = 0.0;
-  for (const Body& b : p.body) {
-    d_least = std::min(d_least, 2.0 * b.R);
+  double d_smallest = std::numeric_limits<double>::infinity(), margin = 0.0;
+  for (const ParticleState& b : p.state) {
+    d_smallest = std::min(d_smallest, 2.0 * b.R);
     margin = std::max(margin, 2.0 * b.R);
   }
-  // A hundred million points are enough for any region: 1e-4 of its volume at three digits.
+  // 1e8 points are enough for any region: they give 1e-4 of its volume to three digits.
   const Bounds box = bounds(region);
-  const double h = std::max(0.1 * d_least, std::cbrt((box.high - box.low).prod() / 1e8));
+  const double h = std::max(0.1 * d_smallest, std::cbrt((box.high - box.low).prod() / 1e8));
   Raster raster(box, h);
-  for (const Body& b : p.body) raster.fill(b);
+  for (const ParticleState& b : p.state) raster.fill(b);
   std::size_t points = 0, filled = 0;
   std::visit(
       [&](const auto& shape) {
@@ -101,7 +101,8 @@ double core_porosity(const Region& region, const Particles& p)
         });
       },
       region);
-  require(points > 0, "the region has no core: it is not three largest grains wide");
+  require(points > 0,
+          "the region has no core: it must be wider than three of the largest particles");
   return 1.0 - static_cast<double>(filled) / static_cast<double>(points);
 }
 

@@ -1,4 +1,4 @@
-/// Porosity of grains in a region, by true sphere volumes.
+/// Porosity of particles in a region, by sphere volumes.
 #pragma once
 
 #include "dem/particles/particles.h"
@@ -6,12 +6,13 @@
 
 namespace mergel::dem {
 
-double solid_volume(const Particles& p); ///< of all spheres [m^3]
+double solid_volume(const Particles& p); ///< sum of the sphere volumes [m^3]
 
-/// Porosity further from every boundary than one largest diameter [-]: the share of a grid's
-/// points, a tenth of the smallest diameter apart at most, that lie in no sphere. A wall
-/// orders the grains beside it and leaves voids there, so the porosity of the whole region
-/// says little of the rock. A periodic box is core throughout: its solid volume is exact.
+/// Porosity of the core, the part further from every boundary than the largest diameter
+/// [-]: share of the points of a grid that lie in no sphere. The grid spacing is a tenth of
+/// the smallest diameter, and larger in regions of more than 1e8 points. Walls order the
+/// particles beside them and leave voids, so the porosity of the whole region differs. A
+/// periodic box has no walls: its porosity follows from the sum of the sphere volumes.
 double core_porosity(const Region& region, const Particles& p);
 
 } // namespace mergel::dem

@@ -33,7 +33,7 @@ double normal_share(double a, double b, double mean, double spread, double d)
 {
   if (d <= a) return 0.0;
   if (d >= b) return 1.0;
-  // From the side of the shorter tail, so that a bound far out leaves digits.
+  // From the side of the shorter tail: a bound far from the mean then loses no digits.
   const auto z = [&](double x) { return (std::log(x) - mean) / (std::sqrt(2.0) * spread); };
   const double sign = z(a) > 0.0 ? -1.0 : 1.0;
   const auto Phi = [&](double x) { return 0.5 * std::erfc(-sign * z(x)); };
@@ -51,12 +51,12 @@ double bisect(double a, double b, double u, F&& f)
   return 0.5 * (a + b);
 }
 
-constexpr double by_number = -3.0; // mass per grain goes as d^3
+constexpr double by_number = -3.0; // exponent; the mass of a particle grows as d^3
 
 void check_bounds(double d_min, double d_max)
 {
   require(d_min > 0.0 && d_max >= d_min && std::isfinite(d_max),
-          "grain diameters must be positive and ascend");
+          "particle diameters must be positive and in ascending order");
 }
 
 struct Check {
@@ -80,7 +80,7 @@ struct Check {
     };
     const double mean = std::log(c.d_50);
     require(share(mean) > tail && share(mean + by_number * c.spread * c.spread) > tail,
-            "next to no grain of this log-normal grading lies between its bounds: move "
+            "almost no particle of this log-normal grading lies between its bounds: move "
             "them towards the median, or lower the spread");
   }
   void operator()(const SieveSizes& c) const
@@ -97,7 +97,8 @@ struct Check {
   }
 };
 
-/// Point of a sieve curve below which `value` lies; `share` its ordinates.
+/// Segment of a sieve curve in which `value` lies, by its first point; `share`: its
+/// ordinates.
 std::size_t segment(const std::vector<double>& share, double value)
 {
   const auto above = std::upper_bound(share.begin(), share.end(), value);
@@ -121,7 +122,7 @@ Grading::Grading(SizeCurve curve) : curve_(std::move(curve))
     const double whole = number_.back(); // > 0: passing rises from 0 to 1
     for (double& share : number_) share /= whole;
   }
-  constexpr int n = 2000; // midpoints in u: 1e-7 of the moments, 1e-4 for steep curves
+  constexpr int n = 2000; // midpoint rule in u: relative error 1e-7, 1e-4 for steep curves
   double sum[4] = {0.0, 0.0, 0.0, 0.0};
   for (int k = 0; k < n; ++k) {
     const double d = diameter((k + 0.5) / n) / largest();

@@ -1,7 +1,7 @@
-/// Grain sizes: how many grains of a specimen are how large, at an upscaling ratio of 1.
+/// Particle size distributions at an upscaling ratio of 1 (dem/README.md, Specimens).
 ///
 /// Each curve gives the share by mass below a diameter, as a sieve does, and the share by
-/// number, by which grains are drawn; mass goes as number times d^3.
+/// number, by which particles are drawn. Mass is proportional to number times d^3.
 #pragma once
 
 #include <variant>
@@ -9,14 +9,15 @@
 
 namespace mergel::dem {
 
-/// Every diameter between two bounds as often as any other: the paper's rock as far as its
-/// numbers fix it.
+/// Uniform by number between two bounds: the paper's rock, as far as its numbers fix the
+/// distribution (meshes/psd/README.md).
 struct UniformSizes {
   double d_min = 0.0, d_max = 0.0; ///< [m]
 };
 
-/// Power law by mass, P(d) = (d^e - d_min^e)/(d_max^e - d_min^e). e = 1/2: Fuller and Thompson
-/// (1907), Trans. ASCE 59, 67; any e: Talbot and Richart (1923), Univ. Illinois Bull. 137.
+/// Power law by mass, P(d) = (d^e - d_min^e)/(d_max^e - d_min^e). e = 1/2: Fuller and
+/// Thompson (1907), Trans. ASCE 59, 67; any e: Talbot and Richart (1923), Univ. Illinois
+/// Bull. 137.
 struct PowerSizes {
   double d_min = 0.0, d_max = 0.0; ///< [m]
   double exponent = 0.5;           ///< e [-], > 0
@@ -30,37 +31,37 @@ struct LogNormalSizes {
   double spread = 0.0;             ///< standard deviation of ln d [-], > 0
 };
 
-/// A sieve curve: straight between its points over ln d, as such curves are drawn.
+/// A sieve curve, linear in ln d between its points, as such curves are drawn.
 struct SieveSizes {
   std::vector<double> d;       ///< [m], ascending
-  std::vector<double> passing; ///< by mass [-], from 0 to 1, never falling
+  std::vector<double> passing; ///< by mass [-], from 0 to 1, never decreasing
 };
 
 using SizeCurve = std::variant<UniformSizes, PowerSizes, LogNormalSizes, SieveSizes>;
 
-/// One curve, ready to be drawn from.
+/// A size distribution from which diameters are drawn.
 class Grading {
 public:
   Grading() : Grading(UniformSizes{1.0, 1.0}) {}
-  /// @throws InputError when the curve makes no sense
+  /// @throws InputError when the curve is not valid
   explicit Grading(SizeCurve curve);
 
-  double smallest() const; ///< d00 [m]
-  double largest() const;  ///< [m]
+  double smallest() const; ///< smallest diameter, d00 [m]
+  double largest() const;  ///< largest diameter [m]
 
   double passing(double d) const;      ///< share by mass below d [-]
   double number_below(double d) const; ///< share by number below d [-]
   /// Diameter below which the share u by number lies [m]; u in [0, 1].
   double diameter(double u) const;
-  /// Diameter below which this share by mass lies, d_50 and the like [m].
+  /// Diameter below which this share by mass lies, for example d_50 [m].
   double sieve(double share) const;
 
-  /// Mean of (d + g)^3 over the grains by number [m^3].
+  /// Mean of (d + g)^3 over the particles by number [m^3].
   double mean_cube(double g = 0.0) const;
 
 private:
   SizeCurve curve_;
-  std::vector<double> number_; ///< of a sieve curve, share by number below each point
+  std::vector<double> number_; ///< sieve curve: share by number below each point
   double moment_[4] = {1.0, 0.0, 0.0, 0.0}; ///< mean of d^k by number [m^k]
 };
 

@@ -27,7 +27,7 @@ double chord_angle(const HalfCylinder& c)
   return pi / c.segments;
 }
 
-/// Angle of x about the axis, from 0 to the angle of all chords together.
+/// Angle of x about the axis, from 0 to the sum of the chord angles.
 double angle_of(const Cylinder&, const Vec3& x)
 {
   const double phi = std::atan2(x.y(), x.x());
@@ -118,23 +118,23 @@ Side side(const HalfCylinder& c, const Vec3& x)
 
 double depth(const Region& region, const Vec3& x)
 {
-  double least = std::numeric_limits<double>::infinity();
-  const auto visit = [&least](double clearance, const Vec3&, Boundary) {
-    least = std::min(least, clearance);
+  double smallest = std::numeric_limits<double>::infinity();
+  const auto visit = [&smallest](double clearance, const Vec3&, Boundary) {
+    smallest = std::min(smallest, clearance);
   };
-  // The side last: it is the dearest, and counts only within what the planes leave.
+  // The side last: it is the most expensive, and it counts only if nearer than the planes.
   std::visit(Cases{[](const PeriodicBox&) {},
                    [&](const Cylinder& c) {
                      visit_ends(c.height, x, visit);
-                     visit_side(c, x, least, visit);
+                     visit_side(c, x, smallest, visit);
                    },
                    [&](const HalfCylinder& c) {
                      visit(x.y(), Vec3(Vec3::UnitY()), Boundary::cut);
                      visit_ends(c.height, x, visit);
-                     visit_side(c, x, least, visit);
+                     visit_side(c, x, smallest, visit);
                    }},
              region);
-  return least;
+  return smallest;
 }
 
 double volume(const Region& region)
@@ -144,7 +144,7 @@ double volume(const Region& region)
                     region);
 }
 
-double least_width(const Region& region)
+double smallest_width(const Region& region)
 {
   return std::visit(
       Cases{[](const PeriodicBox& b) { return b.size.minCoeff(); },
@@ -208,15 +208,17 @@ void check(const Region& region)
 {
   std::visit(Cases{[](const PeriodicBox& b) {
                      require((b.size.array() > 0.0).all(),
-                             "the periodic box must have three edges");
+                             "the three edges of the periodic box must be positive");
                    },
                    [](const Cylinder& c) {
                      require(c.radius > 0.0 && c.height > 0.0 && c.segments > 2,
-                             "the cylinder must have a size and at least three chords");
+                             "the cylinder needs a positive radius and height and at least "
+                             "three chords");
                    },
                    [](const HalfCylinder& c) {
                      require(c.radius > 0.0 && c.height > 0.0 && c.segments > 1,
-                             "the half cylinder must have a size and at least two chords");
+                             "the half cylinder needs a positive radius and height and "
+                             "at least two chords");
                    }},
              region);
 }

@@ -1,4 +1,4 @@
-/// Where a specimen is made: its shape, its size and what bounds it.
+/// Region of a specimen: shape, size and boundaries.
 #pragma once
 
 #include "dem/particles/cell.h"
@@ -8,20 +8,20 @@
 
 namespace mergel::dem {
 
-/// Box that goes on beyond its faces: no wall anywhere, one corner at the origin.
+/// Periodic box without walls, one corner at the origin.
 struct PeriodicBox {
   Vec3 size = Vec3::Zero(); ///< edges [m]
 };
 
-/// Upright prism about the axis z, top at z = 0, whose side is `segments` equal chords of a
-/// circle, as the triangles of a wall make it.
+/// Upright prism about the axis z, top at z = 0. Its side is made of `segments` equal
+/// chords of a circle, like a triangulated wall.
 struct Cylinder {
   double radius = 0.0; ///< of the circle through the corners [m]
   double height = 0.0; ///< [m]
   int segments = 0;    ///< chords around, at least 3
 };
 
-/// The half y >= 0 of such a prism, cut at y = 0, where the model goes on as its mirror image.
+/// The half y >= 0 of such a prism, cut at the symmetry plane y = 0.
 struct HalfCylinder {
   double radius = 0.0; ///< of the circle through the corners [m]
   double height = 0.0; ///< [m]
@@ -30,22 +30,22 @@ struct HalfCylinder {
 
 using Region = std::variant<PeriodicBox, Cylinder, HalfCylinder>;
 
-/// The side of a prism as a point inside sees it.
+/// The face of a prism's side whose sector holds a point x.
 struct Side {
-  double clearance = 0.0;      ///< to the chord whose sector x lies in, inside positive [m]
-  Vec3 inwards = Vec3::Zero(); ///< its unit normal
+  double clearance = 0.0;      ///< distance of x from the face, inside positive [m]
+  Vec3 inwards = Vec3::Zero(); ///< unit normal of the face
 };
 Side side(const Cylinder& c, const Vec3& x);
 Side side(const HalfCylinder& c, const Vec3& x);
 
-/// What stands at a boundary.
+/// Kind of a boundary.
 enum class Boundary {
-  wall, ///< a solid: spheres touch it
-  cut   ///< a mirror plane: half of a sphere's far-field shell lies on each side
+  wall, ///< solid: particles touch it
+  cut   ///< mirror plane: the far-field shell of a particle touches that of its image there
 };
 
-/// Visit what bounds the region, as seen from x: visit(clearance [m], inward normal,
-/// Boundary). Of the side only what is closer than `reach` [m] need be visited.
+/// Call visit(clearance [m], inward normal, Boundary) for the boundaries of the region,
+/// seen from the point x. A side further than `reach` [m] may be left out.
 template <class Visit>
 void visit_boundaries(const PeriodicBox&, const Vec3&, double, Visit&&)
 {
@@ -56,18 +56,18 @@ void visit_ends(double height, const Vec3& x, Visit&& visit)
   visit(-x.z(), Vec3(-Vec3::UnitZ()), Boundary::wall);
   visit(x.z() + height, Vec3(Vec3::UnitZ()), Boundary::wall);
 }
-/// Least distance of the side's chords from the axis [m].
+/// Smallest distance of the chords from the axis [m].
 double apothem(const Cylinder& c);
 double apothem(const HalfCylinder& c);
-/// The same from below, without a cosine: cos a >= 1 - a^2/2.
+/// Lower bound of the apothem [m], without a cosine: cos a >= 1 - a^2/2.
 double apothem_bound(const Cylinder& c);
 double apothem_bound(const HalfCylinder& c);
 template <class Prism, class Visit>
 void visit_side(const Prism& c, const Vec3& x, double reach, Visit&& visit)
 {
-  const double sure = apothem_bound(c) - reach; // most places end here
+  const double sure = apothem_bound(c) - reach; // enough for most points
   if (sure > 0.0 && x.x() * x.x() + x.y() * x.y() < sure * sure) return;
-  const double free = apothem(c) - reach; // nearer to the axis the side is out of reach
+  const double free = apothem(c) - reach; // closer to the axis no chord is within reach
   if (free > 0.0 && x.x() * x.x() + x.y() * x.y() < free * free) return;
   const Side s = side(c, x);
   visit(s.clearance, s.inwards, Boundary::wall);
@@ -89,8 +89,7 @@ void visit_boundaries(const HalfCylinder& c, const Vec3& x, double reach, Visit&
 /// Distance to the nearest boundary, inside positive; infinite in a periodic box [m].
 double depth(const Region& region, const Vec3& x);
 
-/// Whether x is `margin` [m], > 0, away from every boundary, or further: depth(x) >= margin,
-/// for many points.
+/// Whether depth(x) >= margin, margin > 0 [m]: faster than depth(), for many points.
 inline bool is_inside_by(const PeriodicBox&, const Vec3&, double)
 {
   return true;
@@ -100,7 +99,7 @@ bool is_inside_prism_by(const Prism& c, const Vec3& x, double margin)
 {
   if (-x.z() < margin || x.z() + c.height < margin) return false;
   const double r2 = x.x() * x.x() + x.y() * x.y();
-  // A chord is never further off than the circle through its ends.
+  // A chord is never further from the axis than the circle through its ends.
   const double most = c.radius - margin, sure = apothem_bound(c) - margin;
   if (most < 0.0 || r2 > most * most) return false;
   if (sure > 0.0 && r2 < sure * sure) return true;
@@ -115,27 +114,27 @@ inline bool is_inside_by(const HalfCylinder& c, const Vec3& x, double margin)
   return x.y() >= margin && is_inside_prism_by(c, x, margin);
 }
 
-double volume(const Region& region);        ///< [m^3]
-double least_width(const Region& region);   ///< a sphere of this diameter just fits [m]
-PeriodicCell cell_of(const Region& region); ///< not periodic but for the box
-double axis_distance(const Region& region,
-                     const Vec3& x); ///< from z, or the box's mid line [m]
+double volume(const Region& region);         ///< [m^3]
+double smallest_width(const Region& region); ///< a sphere of this diameter just fits [m]
+PeriodicCell cell_of(const Region& region);  ///< periodic for a PeriodicBox only
+/// Distance of x from the axis z, or from the vertical centre line of a box [m].
+double axis_distance(const Region& region, const Vec3& x);
 
-/// Corners of the box around the region.
+/// Corners of the bounding box of a region [m].
 struct Bounds {
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
 };
 Bounds bounds(const Region& region);
 
-/// The point of the box around the region that has these coordinates, each in [0, 1].
+/// Point of the bounding box with these relative coordinates, each in [0, 1].
 Vec3 place(const Region& region, const Vec3& u);
 
-/// A boundary that is a plane.
+/// A plane boundary and its unit normal into the region.
 struct Face {
   Vec3 point = Vec3::Zero(), inwards = Vec3::UnitZ();
 };
-/// Solid faces: the region is what all of them leave inside. None of a periodic box; the cut
-/// is none.
+/// The solid faces of a region. A periodic box has none, and the cut of a half cylinder is
+/// not one of them.
 std::vector<Face> solid_faces(const Region& region);
 
 /// @throws InputError for a region without extent, or a prism of too few chords

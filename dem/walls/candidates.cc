@@ -1,4 +1,4 @@
-/// Which grains meet a wall, and where: candidates, touches, new bonds.
+/// Candidates of a triangulated wall, their contact with its patches, and new wall bonds.
 #include "dem/walls/triangulated.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace mergel::dem {
 
 namespace {
 
-/// Closest point of a triangle and the feature that holds it.
-struct Closest {
+/// Closest point of a triangle, and the feature (face, edge or corner) that it is on.
+struct ClosestFeature {
   enum class On { face, edge, corner } on;
   int which;   ///< edge (k, k+1) or corner k
   Vec3 weight; ///< barycentric
@@ -20,9 +20,10 @@ struct Closest {
 
 /// Source: the Voronoi regions of a triangle, Ericson (2005), Real-Time Collision
 /// Detection, section 5.1.5.
-Closest closest_on_triangle(const Vec3& c, const Vec3& a, const Vec3& b, const Vec3& d)
+ClosestFeature closest_on_triangle(const Vec3& c, const Vec3& a, const Vec3& b,
+                                   const Vec3& d)
 {
-  using On = Closest::On;
+  using On = ClosestFeature::On;
   const Vec3 ab = b - a, ad = d - a;
   const Vec3 ac = c - a, bc = c - b, dc = c - d;
   const double d1 = ab.dot(ac), d2 = ad.dot(ac);
@@ -51,25 +52,25 @@ Closest closest_on_triangle(const Vec3& c, const Vec3& a, const Vec3& b, const V
   return {On::face, 0, {1 - wb - wd, wb, wd}, a + wb * ab + wd * ad};
 }
 
-Closest closest_on(const Wall& wall, int t, const Vec3& c)
+ClosestFeature closest_on(const Wall& wall, int t, const Vec3& c)
 {
   const Triangle& k = wall.topology.triangles[uz(t)];
   return closest_on_triangle(c, wall.x[uz(k[0])], wall.x[uz(k[1])], wall.x[uz(k[2])]);
 }
 
-/// Does the Voronoi region of the feature hold c on every triangle that shares it? One of
-/// the triangles, the first, reports a shared feature.
-bool is_reported(const Wall& wall, int t, const Closest& at, const Vec3& c)
+/// True when the Voronoi region of the feature contains c on all triangles that share it. A
+/// shared feature is reported once, by the first of its triangles.
+bool is_reported(const Wall& wall, int t, const ClosestFeature& at, const Vec3& c)
 {
   const WallTopology& topo = wall.topology;
-  if (at.on == Closest::On::face) return true;
+  if (at.on == ClosestFeature::On::face) return true;
   const Triangle& tri = topo.triangles[uz(t)];
-  if (at.on == Closest::On::edge) {
+  if (at.on == ClosestFeature::On::edge) {
     const int other = topo.across[uz(t)][uz(at.which)];
     if (other < 0) return true;
     if (other < t) return false;
     const Vec3 e = wall.x[uz(tri[uz((at.which + 1) % 3)])] - wall.x[uz(tri[uz(at.which)])];
-    // In the other triangle the edge runs backwards: its interior is along e x normal.
+    // The other triangle has the edge in the opposite direction: e x normal points into it.
     return (c - at.point).dot(e.cross(wall.normals[uz(other)])) <= 0.0;
   }
   const int node = tri[uz(at.which)];
@@ -89,7 +90,7 @@ Vec3 closest_point_of_wall(const Wall& wall, const std::vector<int>& triangles,
   double best = std::numeric_limits<double>::infinity();
   Vec3 point = Vec3::Zero();
   for (const int t : triangles) {
-    const Closest at = closest_on(wall, t, c);
+    const ClosestFeature at = closest_on(wall, t, c);
     const double d2 = (c - at.point).squaredNorm();
     if (d2 >= best) continue;
     best = d2;
@@ -99,9 +100,10 @@ Vec3 closest_point_of_wall(const Wall& wall, const std::vector<int>& triangles,
   return point;
 }
 
-/// How much nearer the face is than the valleys that bound it [m]; infinite without one. A
-/// second face enters a valley with this share, so that the force does not jump.
-double lead_over_valleys(const Wall& wall, int t, const Vec3& c, double distance)
+/// How much nearer c is to the face than to the valleys (concave folds) at its edges [m];
+/// infinite without a valley. It limits the overlap of the face, so that the force is
+/// continuous where a second face enters the contact.
+double distance_lead_over_valleys(const Wall& wall, int t, const Vec3& c, double distance)
 {
   const WallTopology& topo = wall.topology;
   const Triangle& tri = topo.triangles[uz(t)];
@@ -121,45 +123,47 @@ double lead_over_valleys(const Wall& wall, int t, const Vec3& c, double distance
 
 } // namespace
 
-std::optional<PatchTouch> touch_patch(const Wall& wall, const ListedCandidate& candidate,
-                                      const Body& body, double wall_travel)
+std::optional<PatchContact> patch_contact(const Wall& wall,
+                                          const ListedCandidate& candidate,
+                                          const ParticleState& particle, double wall_travel)
 {
   struct Feature {
     Anchor at;
-    Closest::On on;
+    ClosestFeature::On on;
     Vec3 point;
     double distance, overlap;
   };
-  std::array<Feature, PatchTouch::most> features;
+  std::array<Feature, PatchContact::max_features> features;
   std::size_t n_features = 0;
   double nearest = std::numeric_limits<double>::infinity();
   bool is_inside = true;
   Feature closest{};
-  const double reach = wall.material.g_a * body.S;
+  const double reach = wall.material.g_a * particle.S;
   // Round-off of the distances is far below a millionth of a radius.
-  const double moved = (body.x - candidate.x).norm() + wall_travel + 1e-6 * body.R;
+  const double moved = (particle.x - candidate.x).norm() + wall_travel + 1e-6 * particle.R;
   for (const auto& [t, clearance] : candidate.near) {
     if (clearance > moved) continue; // most candidates end here
     const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(t)][0])];
-    const double height = (body.x - corner).dot(wall.normals[uz(t)]);
-    if (height - body.R >= reach) continue; // a bound of the distance to the triangle
-    const Closest at = closest_on(wall, t, body.x);
-    const double d = (body.x - at.point).norm();
-    const Feature feature{{t, at.weight}, at.on, at.point, d, reach - (d - body.R)};
+    const double height = (particle.x - corner).dot(wall.normals[uz(t)]);
+    if (height - particle.R >= reach) continue; // a bound of the distance to the triangle
+    const ClosestFeature at = closest_on(wall, t, particle.x);
+    const double d = (particle.x - at.point).norm();
+    const Feature feature{{t, at.weight}, at.on, at.point, d, reach - (d - particle.R)};
     if (d < nearest) {
       nearest = d;
       closest = feature;
-      // The rim of a wall has no other side.
-      const bool has_sides =
-          at.on == Closest::On::face ||
-          (at.on == Closest::On::edge && wall.topology.across[uz(t)][uz(at.which)] >= 0);
+      // At a boundary edge of the wall there is no wrong side.
+      const bool has_sides = at.on == ClosestFeature::On::face ||
+                             (at.on == ClosestFeature::On::edge &&
+                              wall.topology.across[uz(t)][uz(at.which)] >= 0);
       is_inside = !has_sides || height > 0.0;
     }
-    if (feature.overlap <= 0.0 || !is_reported(wall, t, at, body.x)) continue;
+    if (feature.overlap <= 0.0 || !is_reported(wall, t, at, particle.x)) continue;
     if (n_features == features.size())
       throw NumericalError(
-          "a particle touches more than " + std::to_string(features.size()) +
-          " features of a wall: its triangles are too small for the grains");
+          "it touches more than " + std::to_string(features.size()) +
+          " faces, edges and corners of a wall: the triangles of the wall are too small "
+          "for the particles");
     features[n_features++] = feature;
   }
   if (!is_inside) throw NumericalError("its centre is on the wrong side of a wall");
@@ -167,12 +171,14 @@ std::optional<PatchTouch> touch_patch(const Wall& wall, const ListedCandidate& c
   double total = 0.0;
   for (std::size_t k = 0; k < n_features; ++k) {
     Feature& f = features[k];
-    if (f.on == Closest::On::face && n_features > 1)
-      f.overlap = std::min(f.overlap, std::max(0.0, lead_over_valleys(wall, f.at.triangle,
-                                                                      body.x, f.distance)));
+    if (f.on == ClosestFeature::On::face && n_features > 1)
+      f.overlap = std::min(
+          f.overlap, std::max(0.0, distance_lead_over_valleys(wall, f.at.triangle,
+                                                              particle.x, f.distance)));
     total += f.overlap;
   }
-  // Straight over an edge, round-off may let no feature claim the centre: the closest does.
+  // Above an edge, round-off may leave the centre in no Voronoi region: take the closest
+  // feature.
   if (total <= 0.0 && closest.overlap > 0.0) {
     features[0] = closest;
     n_features = 1;
@@ -180,18 +186,18 @@ std::optional<PatchTouch> touch_patch(const Wall& wall, const ListedCandidate& c
   }
   if (n_features == 0) return std::nullopt;
 
-  PatchTouch p;
+  PatchContact p;
   double distance = 0.0;
   for (std::size_t k = 0; k < n_features; ++k) {
     const double w = features[k].overlap / total; // overlaps are positive
     p.shares[p.n++] = {features[k].at, w};
-    p.touch.point += w * features[k].point;
-    p.touch.v += w * at(wall.v, wall.topology, features[k].at);
-    p.touch.n += w * (features[k].point - body.x) / features[k].distance;
+    p.geometry.point += w * features[k].point;
+    p.geometry.v += w * at(wall.v, wall.topology, features[k].at);
+    p.geometry.n += w * (features[k].point - particle.x) / features[k].distance;
     distance += w * features[k].distance;
   }
-  p.touch.n.normalize();
-  p.touch.gap = distance - body.R;
+  p.geometry.n.normalize();
+  p.geometry.gap = distance - particle.R;
   return p;
 }
 
@@ -201,14 +207,14 @@ void rebuild_wall(Wall& wall, const Particles& p, double skin)
   std::vector<ListedCandidate> listed;
   const WallTopology& topo = wall.topology;
 
-  // Bounding spheres of the triangles, sorted along z, so that a particle sees only its own
-  // slice.
-  struct Ball {
+  // Bounding spheres of the triangles, sorted along z: a particle tests only those at its
+  // height.
+  struct BoundingSphere {
     double z, r;
     Vec3 c;
     int t;
   };
-  std::vector<Ball> balls;
+  std::vector<BoundingSphere> balls;
   double r_max = 0.0;
   for (std::size_t t = 0; t < topo.triangles.size(); ++t) {
     const Triangle& k = topo.triangles[t];
@@ -218,21 +224,22 @@ void rebuild_wall(Wall& wall, const Particles& p, double skin)
     balls.push_back({c.z(), r, c, static_cast<int>(t)});
     r_max = std::max(r_max, r);
   }
-  std::sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) {
-    return std::pair{a.z, a.t} < std::pair{b.z, b.t};
-  });
+  std::sort(balls.begin(), balls.end(),
+            [](const BoundingSphere& a, const BoundingSphere& b) {
+              return std::pair{a.z, a.t} < std::pair{b.z, b.t};
+            });
 
-  struct Hit {
+  struct NearTriangle {
     int patch, triangle;
     double distance2;
   };
-  std::vector<Hit> hits;
+  std::vector<NearTriangle> hits;
   p.for_owned([&](Index i) {
-    const Body& b = p.body[i];
+    const ParticleState& b = p.state[i];
     const double reach = b.R + (wall.material.g_a + skin) * b.S;
     hits.clear();
     auto ball = std::lower_bound(balls.begin(), balls.end(), b.x.z() - reach - r_max,
-                                 [](const Ball& a, double z) { return a.z < z; });
+                                 [](const BoundingSphere& a, double z) { return a.z < z; });
     for (; ball != balls.end() && ball->z <= b.x.z() + reach + r_max; ++ball) {
       const double far = reach + ball->r;
       if ((b.x - ball->c).squaredNorm() > far * far) continue;
@@ -240,10 +247,10 @@ void rebuild_wall(Wall& wall, const Particles& p, double skin)
       if (distance2 > reach * reach) continue;
       hits.push_back({topo.patch[uz(ball->t)], ball->t, distance2});
     }
-    std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& c) {
+    std::sort(hits.begin(), hits.end(), [](const NearTriangle& a, const NearTriangle& c) {
       return std::pair{a.patch, a.triangle} < std::pair{c.patch, c.triangle};
     });
-    for (const Hit& hit : hits) {
+    for (const NearTriangle& hit : hits) {
       if (found.empty() || found.back().particle != i || found.back().wall != hit.patch) {
         found.push_back({i, hit.patch, Vec3::Zero(), 0.0});
         listed.push_back({b.x, {}});
@@ -260,10 +267,10 @@ void rebuild_wall(Wall& wall, const Particles& p, double skin)
 double travel(const Wall& wall)
 {
   if (wall.x_listed.size() != wall.x.size()) return std::numeric_limits<double>::infinity();
-  double most2 = 0.0;
+  double max2 = 0.0;
   for (std::size_t k = 0; k < wall.x.size(); ++k)
-    most2 = std::max(most2, (wall.x[k] - wall.x_listed[k]).squaredNorm());
-  return std::sqrt(most2);
+    max2 = std::max(max2, (wall.x[k] - wall.x_listed[k]).squaredNorm());
+  return std::sqrt(max2);
 }
 
 void bond_to_wall(Wall& wall, Particles& p, double limit)
@@ -273,8 +280,8 @@ void bond_to_wall(Wall& wall, Particles& p, double limit)
   for (std::size_t t = 0; t < wall.topology.triangles.size(); ++t)
     triangles_of[uz(wall.topology.patch[t])].push_back(static_cast<int>(t));
   p.for_owned([&](Index i) {
-    const Body& b = p.body[i];
-    // One bond per patch in reach: a particle in a corner is held by both sides.
+    const ParticleState& b = p.state[i];
+    // One bond per patch within the limit: a particle in a corner is bonded to both sides.
     for (const std::vector<int>& own : triangles_of) {
       Anchor anchor;
       const Vec3 point = closest_point_of_wall(wall, own, b.x, anchor);

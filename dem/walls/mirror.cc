@@ -8,7 +8,7 @@ namespace mergel::dem {
 
 namespace {
 
-double image_gap(const Body& b)
+double image_gap(const ParticleState& b)
 {
   return 2.0 * (b.x.y() - b.R);
 }
@@ -22,7 +22,7 @@ void rebuild_mirror(Mirror& mirror, const Particles& p, double g_a, double skin)
   p.for_owned([&](Index i) {
     while (old != mirror.pairs.end() && old->particle < i) ++old;
     const bool known = old != mirror.pairs.end() && old->particle == i;
-    const bool near = image_gap(p.body[i]) < (g_a + 2.0 * skin) * p.body[i].S;
+    const bool near = image_gap(p.state[i]) < (g_a + 2.0 * skin) * p.state[i].S;
     if (known && (near || old->bond.intact > 0.0))
       pairs.push_back(*old);
     else if (near)
@@ -36,7 +36,7 @@ void bond_to_mirror(Mirror& mirror, Particles& p, double limit)
   if (!mirror.pairs.empty()) throw std::logic_error("this mirror is bonded already");
   rebuild_mirror(mirror, p, limit, 0.0);
   for (MirrorPair& m : mirror.pairs) {
-    Body& b = p.body[m.particle];
+    ParticleState& b = p.state[m.particle];
     m.gap_0 = image_gap(b);
     m.bond = {0.0, 1.0};
     ++p.n_bonds[m.particle];
@@ -46,13 +46,13 @@ void bond_to_mirror(Mirror& mirror, Particles& p, double limit)
 
 namespace {
 
-/// Force of a living bond towards the image [N]; the image's half of its energies is left
-/// out.
+/// Force of an intact bond, towards the image [N]. Only half of its energies is counted:
+/// the other half belongs to the image.
 template <IsBondLaw Law>
-double image_pull(const Law& law, double dt, double gap, Particles& p, MirrorPair& m,
-                  PairLosses& losses, EnergySum& energy)
+double image_bond_force(const Law& law, double dt, double gap, Particles& p, MirrorPair& m,
+                        PairLosses& losses, EnergySum& energy)
 {
-  const Body& b = p.body[m.particle];
+  const ParticleState& b = p.state[m.particle];
   const auto shape = bond_shape(law, b.R, 0.5 / b.R);
   EffectiveLoads<double> q{shape.k_n * (gap - m.gap_0 - m.bond.u_p), {}, {}};
   if (!is_elastic(law, shape, q)) {
@@ -64,7 +64,7 @@ double image_pull(const Law& law, double dt, double gap, Particles& p, MirrorPai
     ++losses.yielded;
     losses.plastic.add(0.5 * r.loss);
     if (m.bond.intact == 0.0) {
-      losses.residue.add(0.5 * r.residue);
+      losses.breakage_release.add(0.5 * r.breakage_release);
       ++losses.broken;
       --p.n_bonds[m.particle];
     }
@@ -81,7 +81,7 @@ void add_mirror_forces(const PairMaterials& material, double dt, Particles& p,
   mirror.energy.clear();
   mirror.force.clear();
   for (MirrorPair& m : mirror.pairs) {
-    Body& b = p.body[m.particle];
+    ParticleState& b = p.state[m.particle];
     Load& load = p.load[m.particle];
     if (b.x.y() < 0.0)
       throw NumericalError("particle " + std::to_string(p.id[m.particle]) +
@@ -92,8 +92,8 @@ void add_mirror_forces(const PairMaterials& material, double dt, Particles& p,
     if (m.bond.intact > 0.0)
       pull += std::visit(
           [&](const auto& law) {
-            return image_pull(with_strengths_times(strength_of(p, m.particle), law), dt,
-                              gap, p, m, losses, mirror.energy);
+            return image_bond_force(with_strengths_times(strength_of(p, m.particle), law),
+                                    dt, gap, p, m, losses, mirror.energy);
           },
           material.bond);
 
@@ -108,7 +108,7 @@ void add_mirror_forces(const PairMaterials& material, double dt, Particles& p,
   }
 }
 
-void hold_mirror_spin(const Mirror& mirror, Particles& p)
+void constrain_mirror_spin(const Mirror& mirror, Particles& p)
 {
   for (const MirrorPair& m : mirror.pairs)
     if (m.bond.intact > 0.0) p.load[m.particle].t.x() = p.load[m.particle].t.z() = 0.0;

@@ -5,11 +5,11 @@
 
 namespace mergel::dem {
 
-Pile::Meeting Pile::meet(const Body& b) const
+Pile::ClosestPoint Pile::closest_point(const ParticleState& b) const
 {
   const double dx = b.x.x() - x_axis, dy = b.x.y() - y_axis;
   const double r = std::hypot(dx, dy), z = b.x.z() - z_tip;
-  // Radial unit vector; any direction serves on the axis itself, where the tip is closest.
+  // Radial unit vector; on the axis any direction does, because the tip is closest there.
   const Vec3 e_r = r > 0.0 ? Vec3(dx / r, dy / r, 0.0) : Vec3(1.0, 0.0, 0.0);
 
   const bool inside = z > 0.0 && (z < cone_height ? r * cone_height < R * z : r < R);
@@ -19,7 +19,7 @@ Pile::Meeting Pile::meet(const Body& b) const
                          " m above the tip; the pile contact is too soft or "
                          "the time step too long");
 
-  // Foot on the cone, t = 0 at the tip and 1 at the shoulder.
+  // Closest point of the line of the cone: t = 0 at the tip and 1 at the shoulder.
   const double length2 = R * R + cone_height * cone_height;
   const double t = (r * R + z * cone_height) / length2;
   double r_foot, z_foot;
@@ -33,13 +33,13 @@ Pile::Meeting Pile::meet(const Body& b) const
     if (z > cone_height) part = Part::shaft;
   }
   const double dr = r_foot - r, dz = z_foot - z, d = std::hypot(dr, dz);
-  if (!(d > 0.0)) throw NumericalError("a particle centre lies on the surface of the pile");
-  Touch touch;
-  touch.n = (dr * e_r + dz * Vec3::UnitZ()) / d;
-  touch.gap = d - b.R;
-  touch.point = b.x + d * touch.n;
-  touch.v = Vec3(0.0, 0.0, v_z);
-  return {touch, part};
+  if (!(d > 0.0)) throw NumericalError("its centre lies on the surface of the pile");
+  ContactGeometry geometry;
+  geometry.n = (dr * e_r + dz * Vec3::UnitZ()) / d;
+  geometry.gap = d - b.R;
+  geometry.point = b.x + d * geometry.n;
+  geometry.v = Vec3(0.0, 0.0, v_z);
+  return {geometry, part};
 }
 
 VectorSum add_plane_forces(const LinearMaterial& material, const Plane& plane, double dt,
@@ -47,12 +47,13 @@ VectorSum add_plane_forces(const LinearMaterial& material, const Plane& plane, d
 {
   VectorSum sum;
   for (WallContact& c : contacts.contacts()) {
-    Body& body = p.body[c.particle];
-    if (plane.is_behind(body))
+    ParticleState& particle = p.state[c.particle];
+    if (plane.is_behind(particle))
       throw NumericalError("particle " + std::to_string(p.id[c.particle]) +
                            " passed through a plane wall");
-    const Touch touch = plane.touch(body);
-    sum.add(-add_wall_contact(material, touch, dt, body, p.load[c.particle], c, losses));
+    const ContactGeometry geometry = plane.contact_geometry(particle);
+    sum.add(
+        -add_wall_contact(material, geometry, dt, particle, p.load[c.particle], c, losses));
   }
   return sum;
 }
@@ -62,11 +63,11 @@ PileLoad add_pile_forces(const LinearMaterial& material, const Pile& pile, doubl
 {
   PileLoad load;
   for (WallContact& c : contacts.contacts()) {
-    Body& body = p.body[c.particle];
-    const auto [touch, part] =
-        naming_particle(p.id[c.particle], [&] { return pile.meet(body); });
+    ParticleState& particle = p.state[c.particle];
+    const auto [geometry, part] =
+        with_particle_id(p.id[c.particle], [&] { return pile.closest_point(particle); });
     const Vec3 f =
-        add_wall_contact(material, touch, dt, body, p.load[c.particle], c, losses);
+        add_wall_contact(material, geometry, dt, particle, p.load[c.particle], c, losses);
     (part == Pile::Part::cone ? load.cone : load.shaft).add(-f);
   }
   return load;

@@ -1,4 +1,4 @@
-/// The triangles of a wall: what lies beyond their edges, their smooth patches, their normals.
+/// The triangles of a wall: their neighbours, smooth patches and normals.
 #include "dem/walls/triangulated.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace mergel::dem {
 
 namespace {
 
-/// Cosine of the largest fold that one smooth patch may have.
+/// Cosine of the largest fold inside a smooth patch.
 const double cos_fold = std::cos(pi / 6.0);
 
 Vec3 area_vector(const std::vector<Vec3>& x, const Triangle& t)
@@ -37,9 +37,10 @@ WallTopology make_topology(const std::vector<Vec3>& x, std::vector<Triangle> tri
   for (std::size_t t = 0; t < n; ++t) {
     const Triangle& k = topo.triangles[t];
     for (const int m : k)
-      require(m >= 0 && uz(m) < x.size(), "wall triangle " + std::to_string(t) +
-                                              " names node " + std::to_string(m) + " of " +
-                                              std::to_string(x.size()));
+      require(m >= 0 && uz(m) < x.size(),
+              "wall triangle " + std::to_string(t) + " has node " + std::to_string(m) +
+                  ", but the wall has " + std::to_string(x.size()) +
+                  " nodes (numbered from 0)");
     const Vec3 a = area_vector(x, k);
     require(a.norm() > 0.0, "wall triangle " + std::to_string(t) + " has no area");
     normal[t] = a.normalized();
@@ -48,8 +49,8 @@ WallTopology make_topology(const std::vector<Vec3>& x, std::vector<Triangle> tri
       require(
           edges.emplace(edge, std::pair{static_cast<int>(t), e}).second,
           "wall triangle " + std::to_string(t) +
-              " runs along an edge in the same direction as another: turn its normal, or "
-              "split an edge of more than two triangles");
+              " has an edge in the same direction as another triangle: reverse its normal, "
+              "or split an edge of more than two triangles");
       topo.around[uz(k[uz(e)])].push_back(static_cast<int>(t));
     }
   }

@@ -34,18 +34,19 @@ Vec3 at(const std::vector<Vec3>& nodal, const WallTopology& topo, const Anchor& 
 
 namespace {
 
-/// Force on the particle at the anchor.
+/// Add the force of a wall bond to its particle and update the bond. Returns the force on
+/// the particle [N]; -f acts on the wall at x_a.
 template <IsBondLaw Law>
 Vec3 add_wall_bond(const Law& material, bool yields, double dt, const Vec3& x_a,
                    const Vec3& v_a, Particles& p, WallBond& bond, PairLosses& losses)
 {
-  const Body& b = p.body[bond.particle];
+  const ParticleState& b = p.state[bond.particle];
   const End<double> particle{triple(b.x), b.R, triple(b.v), b.S, triple(b.omega)};
   const End<double> wall{triple(x_a), 0.0, triple(v_a), b.S, Triple<double>{}};
   const auto k = pair_motion(particle, wall, dt, 1.0);
   const auto shape = bond_shape(material, b.R, 1.0 / b.R);
 
-  const Triple<double> V = turned(triple(bond.V), k);
+  const Triple<double> V = rotated_with_contact(triple(bond.V), k);
   EffectiveLoads<double> load{shape.k_n * (k.gap - bond.gap_0 - bond.state.u_p),
                               V + k.du_s * shape.k_s, Triple<double>{}};
   if (yields && !is_elastic(material, shape, load)) {
@@ -56,7 +57,7 @@ Vec3 add_wall_bond(const Law& material, bool yields, double dt, const Vec3& x_a,
     ++losses.yielded;
     losses.plastic.add(r.loss);
     if (bond.state.intact == 0.0) {
-      losses.residue.add(r.residue);
+      losses.breakage_release.add(r.breakage_release);
       ++losses.broken;
       --p.n_bonds[bond.particle];
       bond.V.setZero();
@@ -72,7 +73,7 @@ Vec3 add_wall_bond(const Law& material, bool yields, double dt, const Vec3& x_a,
   return f;
 }
 
-void push_nodes(Wall& wall, const Anchor& a, const Vec3& f)
+void add_to_nodes(Wall& wall, const Anchor& a, const Vec3& f)
 {
   const Triangle& t = wall.topology.triangles[uz(a.triangle)];
   for (int k = 0; k < 3; ++k)
@@ -85,29 +86,29 @@ void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p, W
                      PairLosses& losses)
 {
   for (VectorSum& f : wall.f) f.clear();
-  wall.pushes.clear();
+  wall.contact_forces.clear();
   const double moved = travel(wall);
 
   for (std::size_t c = 0; c < wall.contacts.size(); ++c) {
     WallContact& contact = wall.contacts[c];
-    Body& body = p.body[contact.particle];
-    const auto touch = naming_particle(p.id[contact.particle], [&] {
-      return touch_patch(wall, wall.listed[c], body, moved);
+    ParticleState& particle = p.state[contact.particle];
+    const auto geometry = with_particle_id(p.id[contact.particle], [&] {
+      return patch_contact(wall, wall.listed[c], particle, moved);
     });
-    if (!touch) {
-      if (contact.f_s != Vec3::Zero()) { // lost as the gap opens
-        const auto k = linear_stiffness(wall.material, body.R, 1.0 / body.R);
+    if (!geometry) {
+      if (contact.f_s != Vec3::Zero()) { // the contact opens and loses its shear energy
+        const auto k = linear_stiffness(wall.material, particle.R, 1.0 / particle.R);
         losses.slip.add(0.5 * contact.f_s.squaredNorm() / k.k_s);
         contact.f_s.setZero();
       }
       contact.energy = 0.0;
       continue;
     }
-    const Vec3 f = add_wall_contact(wall.material, touch->touch, dt, body,
+    const Vec3 f = add_wall_contact(wall.material, geometry->geometry, dt, particle,
                                     p.load[contact.particle], contact, losses);
-    for (std::size_t s = 0; s < touch->n; ++s)
-      push_nodes(wall, touch->shares[s].at, -touch->shares[s].weight * f);
-    wall.pushes.push_back({f, touch->touch.point, touch->touch.v});
+    for (std::size_t s = 0; s < geometry->n; ++s)
+      add_to_nodes(wall, geometry->shares[s].at, -geometry->shares[s].weight * f);
+    wall.contact_forces.push_back({f, geometry->geometry.point, geometry->geometry.v});
   }
 
   for (WallBond& b : wall.bonds) {
@@ -120,18 +121,18 @@ void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p, W
                                yields, dt, x_a, v_a, p, b, losses);
         },
         law);
-    push_nodes(wall, b.anchor, -f);
-    wall.pushes.push_back({f, x_a, v_a});
+    add_to_nodes(wall, b.anchor, -f);
+    wall.contact_forces.push_back({f, x_a, v_a});
   }
 }
 
-WallSums sum_pushes(const Wall& wall)
+WallSums sum_contact_forces(const Wall& wall)
 {
   WallSums sums;
-  for (const WallPush& push : wall.pushes) {
-    sums.force.add(push.f);
-    sums.moment.add(push.point.cross(push.f));
-    sums.power.add(-push.f.dot(push.v));
+  for (const WallContactForce& force : wall.contact_forces) {
+    sums.force.add(force.f);
+    sums.moment.add(force.point.cross(force.f));
+    sums.power.add(-force.f.dot(force.v));
   }
   return sums;
 }

@@ -44,20 +44,20 @@ Supports supports(const FarFieldSpec& s)
            s.outer == FarFieldSpec::Outer::fixed ? Support::fixed : Support::roller}};
 }
 
-/// A quad of the interface, counter-clockwise as seen from the DEM region, by interface
-/// node.
+/// A quadrilateral of the interface by its interface nodes, counter-clockwise as seen from
+/// the DEM region.
 using Quad = std::array<int, 4>;
 
-/// Which diagonal splits the quad: true for corners 0 and 2. The shorter; when they are
-/// equal, the one through the lowest corner nearest to x = 0, then to y = 0, so that mirror
-/// images in x are split in mirror image.
+/// Which diagonal splits the quadrilateral: true for corners 0 and 2. It is the shorter
+/// one. If they are equal, it is the one through the lowest corner nearest to x = 0, then
+/// to y = 0, so that mirror images in x are split in mirror image.
 bool splits_from_first(const Quad& quad, const std::vector<Vec3>& x)
 {
   const auto corner = [&](int k) -> const Vec3& {
     return x[static_cast<std::size_t>(quad[static_cast<std::size_t>(k)])];
   };
   const double d_02 = (corner(2) - corner(0)).norm(), d_13 = (corner(3) - corner(1)).norm();
-  const double close = 1e-9 * (d_02 + d_13);
+  const double close = coincidence * (d_02 + d_13);
   if (std::abs(d_02 - d_13) > close) return d_02 < d_13;
 
   const auto key = [&](int k) {
@@ -71,7 +71,7 @@ bool splits_from_first(const Quad& quad, const std::vector<Vec3>& x)
   return first % 2 == 0;
 }
 
-/// The border, and the solid's node behind each of its nodes (ascending).
+/// The interface mesh, and the node of the solid at each of its nodes (ascending).
 std::pair<InterfaceMesh, std::vector<std::uint32_t>>
 make_interface(const ElasticSolid& solid)
 {
@@ -92,8 +92,8 @@ make_interface(const ElasticSolid& solid)
           (id != boundary::interface_side && id != boundary::interface_bottom))
         continue;
       Quad quad{};
-      constexpr std::array<unsigned int, 4> around = {0, 1, 3,
-                                                      2}; // deal.II's are lexicographic
+      // Vertices in circular order; those of deal.II are in lexicographic order.
+      constexpr std::array<unsigned int, 4> around = {0, 1, 3, 2};
       for (std::size_t k = 0; k < 4; ++k)
         quad[k] =
             static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(),
@@ -126,7 +126,7 @@ void require(bool holds, const char* what, double value, const char* allowed_and
 
 void FarFieldSpec::check() const
 {
-  // Written so that an unset value (NaN) fails too.
+  // An unset value is NaN and fails each of these comparisons.
   require(region_diameter > 0.0, "region diameter", region_diameter,
           "must be set, in m, > 0");
   require(region_height > 0.0, "region height", region_height, "must be set, in m, > 0");
@@ -136,7 +136,7 @@ void FarFieldSpec::check() const
           "must exceed the region height; enlarge the chamber or shrink the DEM region");
   require(cell_size > 0.0 && cell_size <= region_diameter / 2.0, "cell size", cell_size,
           "must be > 0 and at most the radius of the DEM region, in m");
-  require(growth >= 1.0 && growth <= 3.0, "growth", growth,
+  require(growth >= 1.0 && growth <= 3.0, "mesh growth ratio", growth,
           "must lie in [1, 3]; 1.4 is a good choice");
   require(E > 0.0 && std::isfinite(E), "Young's modulus", E, "must be set, in Pa, > 0");
   require(nu > -1.0 && nu < 0.5, "Poisson's ratio", nu,
@@ -149,9 +149,9 @@ void FarFieldSpec::check() const
           "must be >= 0, in m/s^2; it points downwards");
   require(damping >= 0.0 && damping < 1.0, "damping", damping,
           "must satisfy 0 <= damping < 1");
-  constexpr double most_cells = 2e6;
+  constexpr double max_cells = 2e6;
   const double n = layers(geometry(*this)).n_cells();
-  require(n <= most_cells, "number of cells that the cell size asks for", n,
+  require(n <= max_cells, "number of cells for this cell size", n,
           "must be at most 2e6; is the cell size in the right unit?");
 }
 
@@ -173,7 +173,7 @@ struct FarField::Parts {
   dealii::Triangulation<3> mesh;
   ElasticSolid solid;
   InterfaceMesh interface;
-  std::vector<std::uint32_t> nodes; // of the solid, behind interface.x
+  std::vector<std::uint32_t> nodes; // of the solid, at interface.x
   std::unique_ptr<Leapfrog> motion;
 };
 
@@ -215,7 +215,7 @@ std::vector<Eigen::Vector3d> FarField::initial_interface_forces() const
 void FarField::solve_static(std::span<const Eigen::Vector3d> f_interface)
 {
   const DiscreteSolid& s = parts_->solid.discrete();
-  Nodal f = s.f_gravity - s.f_initial;
+  NodalField f = s.f_gravity - s.f_initial;
   for (std::size_t k = 0; k < std::min(f_interface.size(), parts_->nodes.size()); ++k)
     f.col(parts_->nodes[k]).head<3>() += f_interface[k].array();
   parts_->motion->rest_at(fem::solve_static(s, f).u, f_interface);
@@ -250,11 +250,11 @@ Energies FarField::energies() const
 {
   return parts_->motion->energies();
 }
-const Motion& FarField::motion() const
+const NodalMotion& FarField::motion() const
 {
   return parts_->motion->motion();
 }
-void FarField::restore(Motion state)
+void FarField::restore(NodalMotion state)
 {
   parts_->motion->restore(std::move(state));
 }

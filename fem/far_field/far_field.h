@@ -1,4 +1,5 @@
-/// The linear elastic far field around a DEM region: what coupling/ and apps/ see of fem/.
+/// The linear elastic far field around a DEM region: the interface of fem/ to coupling/ and
+/// apps/. Theory: fem/README.md.
 #pragma once
 
 #include "fem/solid/leapfrog.h"
@@ -25,8 +26,7 @@ struct FarFieldSpec {
   double chamber_diameter = unset, chamber_height = unset; ///< [m]
   double region_diameter = unset, region_height = unset;   ///< [m], less than the chamber's
   double cell_size = unset; ///< edge of the cells at the interface [m]
-  double growth =
-      1.4; ///< ratio of neighbouring cell sizes away from the interface [-], >= 1
+  double growth = 1.4; ///< mesh growth ratio: of neighbouring cells, outwards [-], >= 1
 
   double E = unset;   ///< Young's modulus [Pa]
   double nu = unset;  ///< Poisson's ratio [-]
@@ -44,18 +44,20 @@ struct FarFieldSpec {
   void check() const;
 };
 
-/// The border as the DEM sees it: an open surface whose rim lies in z = 0 and y = 0.
+/// The interface to the DEM region as triangles: an open surface whose rim lies in z = 0
+/// and y = 0.
 struct InterfaceMesh {
   std::vector<Eigen::Vector3d> x; ///< reference positions of its nodes [m]
-  std::vector<std::array<int, 3>>
-      triangles;             ///< into x; normals (right hand) into the DEM region
+  /// Indices into x; normals (right-hand rule) point into the DEM region.
+  std::vector<std::array<int, 3>> triangles;
   std::vector<int> boundary; ///< per triangle: an interface id of boundary_ids.h
 };
 
 /// Linear elastic, small strain; geostatic initial stress sigma_v = rho g z, sigma_h = K0
 /// sigma_v (tension positive); base fixed, cut plane and (by default) chamber wall on
-/// rollers, top free. Every rank holds it whole and gets the same bits; the product with the
-/// stiffness, most of a step's cost, is shared out over the ranks. Needs a fem::Runtime.
+/// rollers, top free. Every rank holds the complete far field and gets the same bits; the
+/// product with the stiffness, most of the cost of a step, is distributed over the ranks.
+/// Needs a fem::Runtime.
 class FarField {
 public:
   /// Builds the mesh and assembles. Throws as FarFieldSpec::check does.
@@ -73,7 +75,7 @@ public:
   void interface_displacement(std::vector<Eigen::Vector3d>& u) const;
 
   /// Forces [N] on the interface nodes under which the initial stress is in equilibrium
-  /// with u = 0: what a DEM region with that same stress would exert.
+  /// with u = 0: those that a DEM region with the same stress would exert.
   std::vector<Eigen::Vector3d> initial_interface_forces() const;
 
   /// Static equilibrium under forces [N] on the interface nodes: sets u, and v = 0; the
@@ -93,8 +95,8 @@ public:
   double unbalanced_ratio() const; ///< see Leapfrog::unbalanced_ratio
   Energies energies() const;       ///< see Energies in fem/solid/leapfrog.h
 
-  const Motion& motion() const; ///< the state: all that a restart needs
-  void restore(Motion state);   ///< throws std::invalid_argument if of another mesh
+  const NodalMotion& motion() const; ///< the state that a restart needs
+  void restore(NodalMotion state);   ///< throws std::invalid_argument for another mesh
 
   std::size_t n_cells() const;
   std::size_t n_nodes() const;

@@ -1,6 +1,7 @@
 #include "fem/far_field/far_field_mesh.h"
 
 #include "fem/boundary_ids.h"
+#include "fem/nodal.h"
 
 #include <Eigen/Core>
 
@@ -17,8 +18,8 @@ namespace {
 using std::numbers::pi;
 using Point2 = Eigen::Vector2d;
 
-/// Number of cells that fill a length, the first of them of the given size, each growth
-/// times the one before; at least one.
+/// Number of cells that fill a length, at least one. The first has the given size, each
+/// further one `growth` times the size before.
 int n_graded(double length, double size, double growth)
 {
   const double ratio = length / size;
@@ -27,7 +28,7 @@ int n_graded(double length, double size, double growth)
   return std::max(1, static_cast<int>(std::lround(std::min(n, 1e6))));
 }
 
-/// Nodes 0 = s_0 < ... < s_n = 1 of a row of cells that grow by the ratio.
+/// Nodes 0 = s_0 < ... < s_n = 1 of a row of n cells, each `growth` times the size before.
 std::vector<double> graded(int n, double growth)
 {
   std::vector<double> s(static_cast<std::size_t>(n) + 1, 0.0);
@@ -38,7 +39,8 @@ std::vector<double> graded(int n, double growth)
   return s;
 }
 
-/// The plan: nodes, quads (counter-clockwise), and which quads lie under the DEM region.
+/// The plan: nodes, quadrilaterals (counter-clockwise), and which of them lie under the DEM
+/// region.
 struct Plan {
   struct Quad {
     std::array<int, 4> node;
@@ -66,14 +68,15 @@ Plan make_plan(const FarFieldGeometry& g, const FarFieldLayers& n)
   Plan plan;
   const int m = n.n_around / 4; // the core has 2m x m cells
 
-  // Core, as a share of R_d: half way between the rectangle |x|, y <= core and the circle
-  // through its sides, so that neither its corners nor the cells beside them are flat.
+  // Half width of the core over R_d. Its rim is half way between the rectangle |x|, y <=
+  // core and the circle that touches its sides, so that neither the cells at its corners
+  // nor those beside them are too flat.
   constexpr double core = 0.6;
   const auto core_node = [&](int i, int j) -> Point2 { // i = -m..m, j = 0..m
     const Point2 square(static_cast<double>(i) / m, static_cast<double>(j) / m);
     const double side = square.cwiseAbs().maxCoeff(); // 0 at the origin, 1 on the rim
     if (side == 0.0) return {0.0, 0.0};
-    // the radial line through the same rim cell: eighths of the circle map to the sides
+    // Angle of the rim point: each eighth of the circle maps to half a side of the square.
     const double rim = square.y() < std::abs(square.x())
                            ? square.y() / side * pi / 4.0
                            : pi / 2.0 - std::abs(square.x()) / side * pi / 4.0;
@@ -94,8 +97,8 @@ Plan make_plan(const FarFieldGeometry& g, const FarFieldLayers& n)
                              core_index(i + 1, j + 1), core_index(i, j + 1)},
                             true});
 
-  // Rings. The inmost line of nodes is the rim of the core, from (+, 0) over the top to (-,
-  // 0).
+  // Rings. The innermost line of nodes is the rim of the core, from (+, 0) over (0, +) to
+  // (-, 0).
   std::vector<int> inner;
   for (int j = 0; j < m; ++j) inner.push_back(core_index(m, j));
   for (int i = m; i > -m; --i) inner.push_back(core_index(i, m));
@@ -138,7 +141,7 @@ std::vector<double> heights(const FarFieldGeometry& g, const FarFieldLayers& n)
 
 void set_boundary_ids(const FarFieldGeometry& g, dealii::Triangulation<3>& mesh)
 {
-  const double close = 1e-9 * g.chamber_height;
+  const double close = coincidence * g.chamber_height;
   using Condition = std::function<bool(const dealii::Point<3>&)>;
   const auto radius = [](const dealii::Point<3>& x) { return std::hypot(x[0], x[1]); };
   const std::array<std::pair<int, Condition>, 6> sides = {{
@@ -184,7 +187,7 @@ FarFieldLayers layers(const FarFieldGeometry& g)
   FarFieldLayers n{};
   const double around = pi * g.region_radius / g.cell_size;
   n.n_around = std::max(8, 4 * nearest(around / 4.0));
-  // Between the core, which reaches 0.6 to 0.72 R_d, and R_d lies a third of R_d.
+  // The rim of the core is at 0.6 to 0.72 R_d: about a third of R_d is left for the rings.
   n.n_ring = nearest(n.n_around / (3.0 * pi));
   n.n_radial = n_graded(g.chamber_radius - g.region_radius, g.cell_size, g.growth);
   n.n_upper = nearest(g.region_height / g.cell_size);
@@ -198,8 +201,7 @@ void make_far_field_mesh(const FarFieldGeometry& g, const FarFieldLayers& n,
   const Plan plan = make_plan(g, n);
   const std::vector<double> z = heights(g, n);
 
-  // A node of the plan has vertices in all layers, or, inside r = R_d, below the region
-  // only.
+  // A node of the plan has vertices in all layers; inside r = R_d only below the region.
   const auto n_plan = plan.x.size();
   std::vector<bool> is_above(n_plan, false);
   for (const auto& quad : plan.quads)

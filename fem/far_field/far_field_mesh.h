@@ -2,8 +2,8 @@
 ///
 /// Axis z up, ground surface z = 0, cut plane y = 0, rock at y >= 0. The plan (see
 /// meshes/README.md) is an O-grid under the DEM region and rings around it, mirror
-/// symmetric in x; it is extruded over the depth of the DEM region (rings only) and below
-/// it (all of it).
+/// symmetric in x. Its rings are extruded over the depth of the DEM region, the complete
+/// plan below it.
 #pragma once
 
 #include <deal.II/grid/tria.h>
@@ -15,7 +15,7 @@ struct FarFieldGeometry {
   double chamber_radius, chamber_height; ///< R_c, H_c [m]
   double region_radius, region_height;   ///< R_d, H_d [m], less than the chamber's
   double cell_size;                      ///< edge of the cells at the interface [m]
-  double growth; ///< ratio of neighbouring cells away from it [-], >= 1
+  double growth; ///< mesh growth ratio: of neighbouring cells, outwards [-], >= 1
 };
 
 /// Numbers of cells in each direction.
@@ -30,7 +30,7 @@ struct FarFieldLayers {
   double n_cells() const;
 };
 
-/// Counts whose cells come closest to the asked size and growth.
+/// Counts whose cells come closest to the wanted cell size and mesh growth ratio.
 FarFieldLayers layers(const FarFieldGeometry& g);
 
 /// Fill an empty triangulation and set the ids of boundary_ids.h. All nodes of the

@@ -30,24 +30,24 @@ void BlockMatrix::add(std::uint32_t i, std::uint32_t j, const Mat3& B)
 
 namespace {
 
-constexpr Lanes zero = {0.0, 0.0, 0.0, 0.0};
+constexpr NodeLanes zero = {0.0, 0.0, 0.0, 0.0};
 
-Lanes node(const Nodal& x, std::size_t a)
+NodeLanes node(const NodalField& x, std::size_t a)
 {
-  Lanes lanes;
+  NodeLanes lanes;
   std::memcpy(&lanes, x.data() + 4 * a, sizeof lanes);
   return lanes;
 }
 
-void set_node(Nodal& y, std::size_t a, Lanes lanes)
+void set_node(NodalField& y, std::size_t a, NodeLanes lanes)
 {
   std::memcpy(y.data() + 4 * a, &lanes, sizeof lanes);
 }
 
-/// The columns of a block; the fourth lane holds whatever comes next and is multiplied by
-/// the zero beside a node's three numbers, or cut off when the row is done.
+/// The columns of a block. The fourth lane holds the next number in memory. It is
+/// multiplied by the zero in the fourth entry of a node, or removed at the end of the row.
 struct Columns {
-  Lanes a_0, a_1, a_2;
+  NodeLanes a_0, a_1, a_2;
 
   explicit Columns(const double* block)
   {
@@ -55,22 +55,22 @@ struct Columns {
     std::memcpy(&a_1, block + 3, sizeof a_1);
     std::memcpy(&a_2, block + 6, sizeof a_2);
   }
-  Lanes times(Lanes x) const { return a_0 * x[0] + a_1 * x[1] + a_2 * x[2]; }
+  NodeLanes times(NodeLanes x) const { return a_0 * x[0] + a_1 * x[1] + a_2 * x[2]; }
   /// A^T x: three dot products, summed pairwise.
-  Lanes transposed_times(Lanes x) const
+  NodeLanes transposed_times(NodeLanes x) const
   {
-    const Lanes t_0 = a_0 * x, t_1 = a_1 * x, t_2 = a_2 * x;
-    const Lanes s_01 = __builtin_shufflevector(t_0, t_1, 0, 4, 2, 6) +
-                       __builtin_shufflevector(t_0, t_1, 1, 5, 3, 7);
-    const Lanes s_2 = __builtin_shufflevector(t_2, zero, 0, 4, 2, 6) +
-                      __builtin_shufflevector(t_2, zero, 1, 5, 3, 7);
+    const NodeLanes t_0 = a_0 * x, t_1 = a_1 * x, t_2 = a_2 * x;
+    const NodeLanes s_01 = __builtin_shufflevector(t_0, t_1, 0, 4, 2, 6) +
+                           __builtin_shufflevector(t_0, t_1, 1, 5, 3, 7);
+    const NodeLanes s_2 = __builtin_shufflevector(t_2, zero, 0, 4, 2, 6) +
+                          __builtin_shufflevector(t_2, zero, 1, 5, 3, 7);
     return __builtin_shufflevector(s_01, s_2, 0, 1, 4, 5) +
            __builtin_shufflevector(s_01, s_2, 2, 3, 6, 7);
   }
 };
 
-/// y = left of the diagonal, one after another, plus the sum of all others.
-Lanes whole_row(Lanes left, Lanes sum)
+/// y of a row: the sum over the blocks left of the diagonal plus the sum over the others.
+NodeLanes whole_row(NodeLanes left, NodeLanes sum)
 {
   left += sum;
   left[3] = 0.0;
@@ -79,12 +79,12 @@ Lanes whole_row(Lanes left, Lanes sum)
 
 } // namespace
 
-void BlockMatrix::multiply(const Nodal& x, Nodal& y) const
+void BlockMatrix::multiply(const NodalField& x, NodalField& y) const
 {
   y.setZero(4, x.cols());
   for (std::uint32_t i = 0; i < n_rows(); ++i) {
-    const Lanes x_i = node(x, i);
-    Lanes sum = zero;
+    const NodeLanes x_i = node(x, i);
+    NodeLanes sum = zero;
     for (std::size_t k = row_[i]; k < row_[i + 1]; ++k) {
       const Columns A_ij(value_.data() + 9 * k);
       const std::size_t j = column_[k];
@@ -111,10 +111,10 @@ BlockMatrix::Rows BlockMatrix::rows(std::uint32_t begin, std::uint32_t end) cons
   return rows;
 }
 
-void BlockMatrix::multiply(const Nodal& x, Nodal& y, const Rows& rows) const
+void BlockMatrix::multiply(const NodalField& x, NodalField& y, const Rows& rows) const
 {
   for (std::uint32_t i = rows.begin; i < rows.end; ++i) {
-    Lanes left = zero, sum = zero;
+    NodeLanes left = zero, sum = zero;
     for (std::size_t l = rows.first[i - rows.begin]; l < rows.first[i - rows.begin + 1];
          ++l)
       left += Columns(value_.data() + 9 * rows.left[l].block)

@@ -1,5 +1,5 @@
-/// Symmetric matrix of 3x3 blocks whose product with a nodal vector is the far field's hot
-/// loop.
+/// Symmetric matrix of 3x3 blocks. Its product with a nodal vector is most of the cost of a
+/// far-field step (fem/README.md, The product K u).
 #pragma once
 
 #include "fem/nodal.h"
@@ -9,9 +9,9 @@
 namespace mergel::fem {
 
 /// A = A^T in 3x3 blocks: row i holds block (i, i), then the blocks (i, j) with j > i,
-/// columns ascending; nine doubles a block, column by column. Each stored block is read
-/// once and serves (i, j) and (j, i), in one fixed order: the product has the same bits on
-/// every rank. Measured against PETSc's formats in meshes/README.md.
+/// columns ascending; nine doubles per block, column by column. Each stored block is read
+/// once and used for (i, j) and (j, i), in one fixed order: the product has the same bits
+/// on every rank. meshes/README.md compares its cost with PETSc's formats.
 class BlockMatrix {
 public:
   BlockMatrix() = default;
@@ -25,24 +25,26 @@ public:
   void add(std::uint32_t i, std::uint32_t j, const Mat3& B);
 
   /// y = A x. Both have n_rows() columns; they may not be the same object.
-  void multiply(const Nodal& x, Nodal& y) const;
+  void multiply(const NodalField& x, NodalField& y) const;
 
-  /// Rows [begin, end) in full: the blocks left of their diagonals are stored in other rows.
+  /// Rows [begin, end) with the blocks left of their diagonals, which are stored in other
+  /// rows.
   struct Rows {
     struct Left {
-      std::size_t block;    ///< the transposed of
-      std::uint32_t column; ///< that it multiplies
+      std::size_t block;    ///< stored block, to be transposed
+      std::uint32_t column; ///< column of the transposed block
     };
     std::uint32_t begin = 0, end = 0;
-    std::vector<std::size_t> first; ///< of `left`, by row, and the end
+    std::vector<std::size_t> first; ///< index into `left` of each row's first, and the end
     std::vector<Left> left;         ///< columns ascending
   };
   Rows rows(std::uint32_t begin, std::uint32_t end) const;
 
-  /// The same y in these rows, bit for bit; the others stay as they are.
-  void multiply(const Nodal& x, Nodal& y, const Rows& rows) const;
+  /// The same y, bit for bit, in these rows only; other rows of y are unchanged.
+  void multiply(const NodalField& x, NodalField& y, const Rows& rows) const;
 
-  /// Stored or left of the diagonal, by row: what its product costs.
+  /// Number of blocks of each row, those left of the diagonal included: the cost of its
+  /// product.
   std::vector<std::size_t> blocks_by_row() const;
 
   std::uint32_t n_rows() const { return static_cast<std::uint32_t>(row_.size()) - 1; }
@@ -63,8 +65,8 @@ public:
 private:
   std::vector<std::size_t> row_ = {0}; // first block of each row, and the end
   std::vector<std::uint32_t> column_;  // of each block
-  std::vector<double> value_ = {
-      0, 0}; // nine a block, and a tail that a four-wide load may touch
+  // Nine per block, and two more that the load of four numbers may read.
+  std::vector<double> value_ = {0, 0};
 };
 
 } // namespace mergel::fem

@@ -12,11 +12,12 @@ double largest_frequency(const DiscreteSolid& solid, const Eigen::ArrayXd& k_ext
 {
   const auto n = static_cast<Eigen::Index>(solid.n_nodes());
   const Eigen::ArrayXd root = solid.m.sqrt().inverse(); // m > 0
-  Nodal scale(4, n);
+  NodalField scale(4, n);
   for (Eigen::Index a = 0; a < n; ++a) scale.col(a).setConstant(root(a));
 
-  // Rough in every direction, the same on every machine, and in the range of P.
-  Nodal q = Nodal::Zero(4, n);
+  // Start vector: irregular in all components, the same on every machine, in the range of
+  // P.
+  NodalField q = NodalField::Zero(4, n);
   for (Eigen::Index a = 0; a < n; ++a) {
     const double t = static_cast<double>(a + 1);
     q.col(a).head<3>() = (solid.P[a] * Vec3(std::sin(2.1 * t * t), std::sin(3.7 * t * t),
@@ -28,16 +29,16 @@ double largest_frequency(const DiscreteSolid& solid, const Eigen::ArrayXd& k_ext
 
   constexpr int largest_basis = 500;
   std::vector<double> diagonal, off;
-  Nodal previous = Nodal::Zero(4, n), Kq;
+  NodalField previous = NodalField::Zero(4, n), Kq;
   double lambda = 0.0;
   for (int k = 0; k < largest_basis; ++k) {
-    const Nodal s = scale * q;
+    const NodalField s = scale * q;
     solid.K.multiply(s, Kq);
     if (k_extra.size() > 0)
       for (Eigen::Index a = 0; a < n; ++a)
         Kq.col(a).head<3>() +=
             k_extra(a) * (solid.P[a] * s.col(a).head<3>().matrix()).array();
-    Nodal w = scale * Kq;
+    NodalField w = scale * Kq;
     const double alpha = dot(q, w);
     w -= alpha * q;
     if (k > 0) w -= off.back() * previous;

@@ -1,4 +1,4 @@
-/// An elastic solid as arrays: all that time stepping and static solves need, and no mesh.
+/// An elastic solid as arrays, for time stepping and static solutions; it has no mesh.
 #pragma once
 
 #include "fem/solid/block_matrix.h"
@@ -12,25 +12,25 @@ namespace mergel::fem {
 ///
 ///   K = P K_free P + kappa (I - P)
 ///
-/// stays symmetric, positive definite once rigid motions are held, and leaves that range
-/// alone.
+/// is symmetric, positive definite if rigid motions are prevented, and maps this range into
+/// itself (fem/README.md, Boundary conditions).
 struct DiscreteSolid {
-  std::vector<Vec3> x; ///< reference position of each node [m]
-  std::vector<Mat3> P; ///< support of each node [-]
-  Eigen::ArrayXd m;    ///< lumped mass of each node [kg], > 0
-  Nodal f_gravity;     ///< P times the weight [N]
-  Nodal f_initial; ///< P times int B^T sigma_0, the force that the initial stress holds [N]
-  BlockMatrix K;   ///< stiffness with supports [N/m]
+  std::vector<Vec3> x;  ///< reference position of each node [m]
+  std::vector<Mat3> P;  ///< support of each node [-]
+  Eigen::ArrayXd m;     ///< lumped mass of each node [kg], > 0
+  NodalField f_gravity; ///< P times the weight [N]
+  NodalField f_initial; ///< P times int B^T sigma_0, nodal forces of the initial stress [N]
+  BlockMatrix K;        ///< stiffness with supports [N/m]
   std::vector<std::uint32_t> oblique; ///< nodes whose P mixes the axes (not diagonal)
 
   std::size_t n_nodes() const { return x.size(); }
 };
 
-/// Upper end of the spectrum: the largest omega [rad/s] of K u = omega^2 m u, by Lanczos
-/// iteration until the estimate moves by less than 1e-6 of itself.
-/// @param k_extra springs from node to ground added to the diagonal [N/m]; one per node or
-/// none.
-///   A bound for walls: N N^T <= diag(N) when the rows of N are >= 0 and sum to 1.
+/// Largest omega [rad/s] of K u = omega^2 m u, by Lanczos iteration until the estimate
+/// changes by less than 1e-6 of itself (fem/README.md, Stable step).
+/// @param k_extra springs from the nodes to the ground, added to the diagonal [N/m]; one
+///   per node or none. They bound the springs of a wall: N N^T <= diag(N) if the rows of N
+///   are >= 0 and sum to 1.
 double largest_frequency(const DiscreteSolid& solid, const Eigen::ArrayXd& k_extra = {});
 
 } // namespace mergel::fem

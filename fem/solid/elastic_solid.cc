@@ -24,13 +24,12 @@ Mat3 free_directions(const std::vector<Vec3>& normals)
 {
   Mat3 P = Mat3::Identity();
   for (const Vec3& n : normals) {
-    // Gram-Schmidt; a normal within 0.1 degree of the span of the others adds nothing
+    // Gram-Schmidt; a normal within 0.1 degree of the span of the others is ignored.
     constexpr double same_direction = 2e-3;
     const Vec3 rest = P * n;
     if (rest.norm() > same_direction) P -= rest * rest.transpose() / rest.squaredNorm();
   }
-  // A projector's entries below round-off are noise: remove them, so that an axis that is
-  // held is held exactly.
+  // Set entries of the size of round-off to zero, so that a fixed axis is fixed exactly.
   return P.unaryExpr([](double p) { return std::abs(p) < 1e-12 ? 0.0 : p; });
 }
 
@@ -116,7 +115,7 @@ void ElasticSolid::assemble()
   const auto columns = static_cast<Eigen::Index>(n);
   DiscreteSolid& s = discrete_;
   s.m = Eigen::ArrayXd::Zero(columns);
-  s.f_gravity = s.f_initial = Nodal::Zero(4, columns);
+  s.f_gravity = s.f_initial = NodalField::Zero(4, columns);
   std::vector<Mat3> K_aa(n, Mat3::Zero()); // without supports
 
   const auto C = elasticity_tensor(properties_.elastic);
@@ -130,8 +129,7 @@ void ElasticSolid::assemble()
   std::vector<double> f_initial(n_dofs);
   std::array<double, n_vertices> m{};
 
-  // Q1 vertex unknowns come vertex by vertex: local unknown 3 v + c is component c at
-  // vertex v.
+  // Local unknowns of Q1 are ordered by vertex: 3 v + c is component c at vertex v.
   for (const auto& cell : dofs_.active_cell_iterators()) {
     fe_values.reinit(cell);
     K = 0.0;
@@ -174,7 +172,8 @@ void ElasticSolid::assemble()
     }
   }
 
-  // kappa: the mean stiffness of the node itself, which never raises the largest frequency
+  // kappa: the mean stiffness of the node itself, which does not raise the largest
+  // frequency
   for (std::uint32_t a = 0; a < n; ++a)
     s.K.add(a, a, (K_aa[a].trace() / 3.0) * (Mat3::Identity() - s.P[a]));
 }
@@ -190,7 +189,8 @@ std::vector<std::uint32_t> ElasticSolid::nodes_on(dealii::types::boundary_id id)
   return {nodes.begin(), nodes.end()};
 }
 
-std::vector<dealii::SymmetricTensor<2, 3>> ElasticSolid::cell_stress(const Nodal& u) const
+std::vector<dealii::SymmetricTensor<2, 3>>
+ElasticSolid::cell_stress(const NodalField& u) const
 {
   const auto C = elasticity_tensor(properties_.elastic);
   dealii::FEValues<3> fe_values(fe_, cell_quadrature,

@@ -1,4 +1,5 @@
-/// Linear elastic solid on a hexahedral mesh: assembles the arrays of a DiscreteSolid.
+/// Linear elastic solid on a hexahedral mesh: assembles the arrays of a DiscreteSolid
+/// (fem/README.md, Equations).
 #pragma once
 
 #include "fem/solid/discrete_solid.h"
@@ -14,7 +15,7 @@
 
 namespace mergel::fem {
 
-/// How the nodes of one boundary id are held.
+/// Support of the nodes of one boundary id.
 enum class Support {
   fixed,  ///< u = 0
   roller, ///< u.n = 0, n the area-weighted mean normal of the id's faces at the node: a
@@ -23,7 +24,7 @@ enum class Support {
 
 using Supports = std::map<dealii::types::boundary_id, Support>;
 
-/// What fills the mesh.
+/// Material and loads of the solid.
 struct SolidProperties {
   Elastic elastic;
   double rho = 0.0;            ///< bulk density [kg/m^3], > 0
@@ -32,8 +33,8 @@ struct SolidProperties {
   std::function<dealii::SymmetricTensor<2, 3>(const dealii::Point<3>&)> initial_stress;
 };
 
-/// Trilinear hexahedra (Q1), small strain, mass lumped by row sums. Nodes are numbered as
-/// deal.II numbers the vertices' unknowns, cell by cell. The mesh is borrowed and must
+/// Trilinear hexahedra (Q1), small strain, mass lumped by row sums. Nodes are numbered in
+/// the order of deal.II's vertex unknowns, cell by cell. The mesh is borrowed and must
 /// outlive the solid.
 class ElasticSolid {
 public:
@@ -56,7 +57,7 @@ public:
   std::vector<std::uint32_t> nodes_on(dealii::types::boundary_id id) const;
 
   /// Mean stress of each active cell, sigma_0 + C : eps(u) [Pa], tension positive.
-  std::vector<dealii::SymmetricTensor<2, 3>> cell_stress(const Nodal& u) const;
+  std::vector<dealii::SymmetricTensor<2, 3>> cell_stress(const NodalField& u) const;
 
 private:
   void set_supports(const Supports& supports);

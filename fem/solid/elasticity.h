@@ -9,9 +9,8 @@ namespace mergel::fem {
 
 /// Young's modulus and Poisson's ratio, and the constants that follow from them.
 struct Elastic {
-  double E = 0.0; ///< Young's modulus [Pa], > 0
-  double nu =
-      0.0; ///< Poisson's ratio [-], -1 < nu < 0.5, which keeps every division below safe
+  double E = 0.0;  ///< Young's modulus [Pa], > 0
+  double nu = 0.0; ///< Poisson's ratio [-], -1 < nu < 0.5: no divisor below is zero
 
   double lambda() const { return E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)); } ///< [Pa]
   double G() const { return E / (2.0 * (1.0 + nu)); }                        ///< [Pa]

@@ -16,10 +16,10 @@ Leapfrog::Leapfrog(const DiscreteSolid& solid, double alpha,
   const auto n = static_cast<Eigen::Index>(solid.n_nodes());
   inverse_m_.resize(solid.n_nodes());
   Eigen::Map<Eigen::ArrayXd>(inverse_m_.data(), n) = solid.m.inverse();
-  now_.u = now_.v = now_.Ku = now_.f_interface = Nodal::Zero(4, n);
+  now_.u = now_.v = now_.Ku = now_.f_interface = NodalField::Zero(4, n);
 }
 
-void Leapfrog::take_interface_forces(std::span<const Vec3> f)
+void Leapfrog::load_interface_forces(std::span<const Vec3> f)
 {
   if (f.size() != loaded_.size())
     throw std::invalid_argument("interface forces: " + std::to_string(f.size()) +
@@ -33,46 +33,46 @@ void Leapfrog::take_interface_forces(std::span<const Vec3> f)
 
 void Leapfrog::step(double dt, std::span<const Vec3> f)
 {
-  take_interface_forces(f);
+  load_interface_forces(f);
   product_.multiply(now_.u, now_.Ku);
 
   const double dt_kick = now_.dt > 0.0 ? 0.5 * (now_.dt + dt) : dt;
   const auto n = static_cast<Eigen::Index>(solid_.n_nodes());
-  const Lanes zero = {0.0, 0.0, 0.0, 0.0};
-  Lanes power_interface = zero, power_gravity = zero, power_initial = zero,
-        power_damping = zero;
+  const NodeLanes zero = {0.0, 0.0, 0.0, 0.0};
+  NodeLanes power_interface = zero, power_gravity = zero, power_initial = zero,
+            power_damping = zero;
 
-  const auto load = [](Lanes& lanes, const Nodal& field, Eigen::Index a) {
+  const auto load = [](NodeLanes& lanes, const NodalField& field, Eigen::Index a) {
     std::memcpy(&lanes, field.data() + 4 * a, sizeof lanes);
   };
   for (Eigen::Index a = 0; a < n; ++a) {
-    Lanes f_interface, f_gravity, f_initial, Ku, v;
+    NodeLanes f_interface, f_gravity, f_initial, Ku, v;
     load(f_interface, now_.f_interface, a);
     load(f_gravity, solid_.f_gravity, a);
     load(f_initial, solid_.f_initial, a);
     load(Ku, now_.Ku, a);
     load(v, now_.v, a);
 
-    const Lanes f_a = f_interface + f_gravity - f_initial - Ku;
-    const Lanes drag = alpha_ * (f_a < 0.0 ? -f_a : f_a);
-    const Lanes f_damping = v > 0.0 ? drag : (v < 0.0 ? -drag : zero);
-    const Lanes v_new = v + (f_a - f_damping) * (dt_kick * inverse_m_[a]);
+    const NodeLanes f_a = f_interface + f_gravity - f_initial - Ku;
+    const NodeLanes drag = alpha_ * (f_a < 0.0 ? -f_a : f_a);
+    const NodeLanes f_damping = v > 0.0 ? drag : (v < 0.0 ? -drag : zero);
+    const NodeLanes v_new = v + (f_a - f_damping) * (dt_kick * inverse_m_[a]);
 
-    const Lanes v_mean = 0.5 * (v + v_new);
+    const NodeLanes v_mean = 0.5 * (v + v_new);
     power_interface += f_interface * v_mean;
     power_gravity += f_gravity * v_mean;
     power_initial -= f_initial * v_mean;
     power_damping += f_damping * v_mean;
     std::memcpy(now_.v.data() + 4 * a, &v_new, sizeof v_new);
   }
-  // Component-wise damping leaves the range of an oblique P. What P removes here is normal
-  // to the old and the new velocity, so the work above stands.
+  // Component-wise damping leaves the range of an oblique P. The part that P removes here
+  // is normal to the old and the new velocity, so the works above do not change.
   for (const auto a : solid_.oblique)
     now_.v.col(a).head<3>() = (solid_.P[a] * at(now_.v, a)).array();
 
-  Lanes strain = zero;
+  NodeLanes strain = zero;
   for (Eigen::Index a = 0; a < n; ++a) {
-    Lanes u, v, Ku;
+    NodeLanes u, v, Ku;
     load(u, now_.u, a);
     load(v, now_.v, a);
     load(Ku, now_.Ku, a);
@@ -81,7 +81,7 @@ void Leapfrog::step(double dt, std::span<const Vec3> f)
     std::memcpy(now_.u.data() + 4 * a, &u, sizeof u);
   }
 
-  const auto sum = [](const Lanes& s) { return (s[0] + s[1]) + s[2]; };
+  const auto sum = [](const NodeLanes& s) { return (s[0] + s[1]) + s[2]; };
   now_.energy.strain = 0.5 * sum(strain);
   now_.energy.interface_work += dt_kick * sum(power_interface);
   now_.energy.gravity_work += dt_kick * sum(power_gravity);
@@ -90,9 +90,9 @@ void Leapfrog::step(double dt, std::span<const Vec3> f)
   now_.dt = dt;
 }
 
-void Leapfrog::rest_at(const Nodal& u, std::span<const Vec3> f)
+void Leapfrog::rest_at(const NodalField& u, std::span<const Vec3> f)
 {
-  take_interface_forces(f);
+  load_interface_forces(f);
   now_.u = u;
   now_.v.setZero();
   solid_.K.multiply(now_.u, now_.Ku);
@@ -101,10 +101,10 @@ void Leapfrog::rest_at(const Nodal& u, std::span<const Vec3> f)
   now_.energy.strain = 0.5 * dot(now_.Ku, now_.u);
 }
 
-void Leapfrog::restore(Motion state)
+void Leapfrog::restore(NodalMotion state)
 {
   const auto n = static_cast<Eigen::Index>(solid_.n_nodes());
-  for (const Nodal* field : {&state.u, &state.v, &state.Ku, &state.f_interface})
+  for (const NodalField* field : {&state.u, &state.v, &state.Ku, &state.f_interface})
     if (field->cols() != n)
       throw std::invalid_argument(
           "state of the far field: " + std::to_string(field->cols()) +
@@ -122,8 +122,8 @@ Energies Leapfrog::energies() const
 
 double Leapfrog::unbalanced_ratio() const
 {
-  const auto size = [](const Nodal& f) { return f.matrix().colwise().norm().sum(); };
-  const Nodal f = now_.f_interface + solid_.f_gravity - solid_.f_initial - now_.Ku;
+  const auto size = [](const NodalField& f) { return f.matrix().colwise().norm().sum(); };
+  const NodalField f = now_.f_interface + solid_.f_gravity - solid_.f_initial - now_.Ku;
   const double scale = size(now_.f_interface) + size(solid_.f_gravity) +
                        size(solid_.f_initial) + size(now_.Ku);
   return scale > 0.0 ? size(f) / scale : 0.0;

@@ -1,4 +1,5 @@
-/// Explicit motion of an elastic solid: leapfrog with local non-viscous damping.
+/// Explicit motion of an elastic solid: leapfrog with local non-viscous damping
+/// (fem/README.md, Explicit step).
 #pragma once
 
 #include "fem/solid/discrete_solid.h"
@@ -8,45 +9,46 @@
 
 namespace mergel::fem {
 
-/// Energy of the solid [J]. For a constant time step the books close to round-off:
+/// Energy of the solid [J]. For a constant time step the energy balance holds to round-off:
 ///
-///   change of (kinetic + strain) = interface_work + gravity_work + initial_stress_work -
-///   damping
+///   change of (kinetic + strain) =
+///     interface_work + gravity_work + initial_stress_work - damping
 ///
-/// Each work sum adds dt f^n . (v^{n-1/2} + v^{n+1/2})/2. When dt changes from dt_1 to dt_2
-/// one such step is off by (dt_2 - dt_1)/4 (K u).(v^{n+1/2} - v^{n-1/2}), second order in
-/// dt.
+/// Each step adds dt f^n . (v^{n-1/2} + v^{n+1/2})/2 to a work. A change of the step from
+/// dt_1 to dt_2 leaves an error of (dt_2 - dt_1)/4 (K u).(v^{n+1/2} - v^{n-1/2}) once,
+/// second order in dt (fem/README.md, Energy).
 struct Energies {
   double kinetic = 0.0; ///< 1/2 m v^2 at n+1/2
   double strain = 0.0;  ///< 1/2 u^n.K u^{n+1}: at n+1/2, relative to the initial state
   double interface_work = 0.0; ///< done on the solid by the interface forces, cumulative
   double gravity_work = 0.0;   ///< done by gravity, cumulative
   double initial_stress_work = 0.0; ///< done by -f_initial, cumulative
-  double damping = 0.0;             ///< taken out by damping, cumulative
+  double damping = 0.0;             ///< lost by damping, cumulative
 };
 
-/// All that a restart needs to go on with the same bits.
-struct Motion {
-  Nodal u;           ///< displacement u^{n+1} [m]
-  Nodal v;           ///< velocity v^{n+1/2} [m/s]
-  Nodal Ku;          ///< internal force at the last kick, u^n [N]
-  Nodal f_interface; ///< P times the interface forces of the last kick [N]
-  double dt = 0.0;   ///< last time step [s]; 0 before the first
+/// State that a restart needs to continue with the same bits.
+struct NodalMotion {
+  NodalField u;           ///< displacement u^{n+1} [m]
+  NodalField v;           ///< velocity v^{n+1/2} [m/s]
+  NodalField Ku;          ///< internal force at the last kick, u^n [N]
+  NodalField f_interface; ///< P times the interface forces of the last kick [N]
+  double dt = 0.0;        ///< last time step [s]; 0 before the first
   Energies energy;
 };
 
 /// Moves a solid, which it borrows and which must outlive it:
 ///
 ///   f = f_interface + f_gravity - f_initial - K u            at t^n
-///   m (v^{n+1/2} - v^{n-1/2})/dt = P (f_c - alpha |f_c| sign(v_c))_c    for each component
-///   c u^{n+1} = u^n + dt v^{n+1/2}
+///   m (v^{n+1/2} - v^{n-1/2})/dt = P (f_c - alpha |f_c| sign(v_c))_c, each component c
+///   u^{n+1} = u^n + dt v^{n+1/2}
 ///
 /// The kick uses the mean of the old and the new dt; the first step takes the new one.
 class Leapfrog {
 public:
   /// @param alpha local damping [-], 0 <= alpha < 1
   /// @param loaded nodes that take interface forces, in the order in which step() gets them
-  /// @param comm ranks that share the product K u, each calling step() with the same forces
+  /// @param comm ranks over which the product K u is distributed; each calls step() with
+  ///   the same forces
   Leapfrog(const DiscreteSolid& solid, double alpha, std::vector<std::uint32_t> loaded,
            MPI_Comm comm = MPI_COMM_NULL);
 
@@ -54,31 +56,31 @@ public:
   /// nothing.
   void step(double dt, std::span<const Vec3> f);
 
-  /// At rest at u under forces f; the work sums start again from zero.
-  void rest_at(const Nodal& u, std::span<const Vec3> f);
+  /// Set the solid at rest at u under forces f; all works start again from zero.
+  void rest_at(const NodalField& u, std::span<const Vec3> f);
 
-  const Motion& motion() const { return now_; }
+  const NodalMotion& motion() const { return now_; }
   /// Throws std::invalid_argument when the arrays do not fit the solid.
-  void restore(Motion state);
+  void restore(NodalMotion state);
 
   /// Energies after the last step.
   Energies energies() const;
 
-  /// How far from equilibrium, at the last kick:
+  /// Unbalanced-force ratio [-] at the last kick:
   ///   sum_a |f_a| / sum_a (|f_interface| + |f_gravity| + |f_initial| + |K u|)_a
-  /// over all nodes, forces projected with P, so reactions of supports count in neither;
-  /// f_a before damping. 0 when there is no force at all.
+  /// over all nodes. Forces are projected with P, so reactions of supports do not count;
+  /// f_a is taken before damping. 0 without any force.
   double unbalanced_ratio() const;
 
 private:
-  void take_interface_forces(std::span<const Vec3> f);
+  void load_interface_forces(std::span<const Vec3> f);
 
   const DiscreteSolid& solid_;
   SharedProduct product_;
   double alpha_;
   std::vector<std::uint32_t> loaded_;
   std::vector<double> inverse_m_; // [1/kg]
-  Motion now_;
+  NodalMotion now_;
 };
 
 } // namespace mergel::fem

@@ -10,20 +10,20 @@
 
 namespace mergel::fem {
 
-void write_vtu(const ElasticSolid& solid, const Nodal& u, const Nodal& v,
+void write_vtu(const ElasticSolid& solid, const NodalField& u, const NodalField& v,
                const std::string& path)
 {
   using dealii::DataComponentInterpretation::component_is_part_of_tensor;
   using dealii::DataComponentInterpretation::component_is_part_of_vector;
 
-  const auto unknowns = [&](const Nodal& field) {
+  const auto unknowns = [&](const NodalField& field) {
     dealii::Vector<double> vector(solid.dofs().n_dofs());
     for (unsigned int i = 0; i < vector.size(); ++i) vector(i) = field(i % 3, i / 3);
     return vector;
   };
   const dealii::Vector<double> displacement = unknowns(u), velocity = unknowns(v);
 
-  // ParaView takes a tensor as nine components, constant in a cell.
+  // ParaView needs a tensor as nine components; it is constant in a cell.
   const dealii::FESystem<3> constant(dealii::FE_DGQ<3>(0), 9);
   dealii::DoFHandler<3> stress_dofs(solid.dofs().get_triangulation());
   stress_dofs.distribute_dofs(constant);
@@ -49,8 +49,8 @@ void write_vtu(const ElasticSolid& solid, const Nodal& u, const Nodal& v,
   out.set_flags(flags);
   out.build_patches();
 
-  std::ostringstream
-      text; // deal.II reports a bad stream with a page of guesses and a stack
+  // Not directly to the file: deal.II reports a failed stream with a long text and a stack.
+  std::ostringstream text;
   out.write_vtu(text);
   std::ofstream file(path, std::ios::binary);
   file << text.str();

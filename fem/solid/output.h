@@ -11,7 +11,7 @@ namespace mergel::fem {
 /// (tensor, tension positive, initial stress included) as one .vtu file. Give a temporary
 /// name and rename it, so that the file appears whole. Throws std::runtime_error when it
 /// cannot be written.
-void write_vtu(const ElasticSolid& solid, const Nodal& u, const Nodal& v,
+void write_vtu(const ElasticSolid& solid, const NodalField& u, const NodalField& v,
                const std::string& path);
 
 } // namespace mergel::fem

@@ -16,7 +16,7 @@ SharedProduct::SharedProduct(const BlockMatrix& A, MPI_Comm comm) : A_(A), comm_
     return;
   }
 
-  // A rank ends where its share of all blocks does.
+  // Each rank gets consecutive rows with its share of all blocks.
   const std::vector<std::size_t> n_blocks = A.blocks_by_row();
   const std::size_t all = std::accumulate(n_blocks.begin(), n_blocks.end(), std::size_t{0});
   const auto n = static_cast<std::size_t>(n_ranks);
@@ -32,7 +32,7 @@ SharedProduct::SharedProduct(const BlockMatrix& A, MPI_Comm comm) : A_(A), comm_
   }
 }
 
-void SharedProduct::multiply(const Nodal& x, Nodal& y) const
+void SharedProduct::multiply(const NodalField& x, NodalField& y) const
 {
   if (comm_ == MPI_COMM_NULL) {
     A_.multiply(x, y);

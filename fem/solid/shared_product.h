@@ -1,4 +1,4 @@
-/// The product of a matrix that every rank holds, its rows shared out over the ranks.
+/// Product with a matrix that every rank holds; its rows are distributed over the ranks.
 #pragma once
 
 #include "fem/solid/block_matrix.h"
@@ -7,15 +7,15 @@
 
 namespace mergel::fem {
 
-/// y = A x on every rank, each computing an even share of the blocks; no bit depends on the
-/// number of ranks. The matrix is borrowed and must outlive the object.
+/// y = A x on every rank; each rank computes an even share of the blocks. No bit depends on
+/// the number of ranks. The matrix is borrowed and must outlive the object.
 class SharedProduct {
 public:
-  /// @param comm must outlive the object; MPI need not be up for MPI_COMM_NULL, one rank
+  /// @param comm must outlive the object; MPI_COMM_NULL: one rank, without MPI
   SharedProduct(const BlockMatrix& A, MPI_Comm comm);
 
   /// Collective; x the same on all ranks.
-  void multiply(const Nodal& x, Nodal& y) const;
+  void multiply(const NodalField& x, NodalField& y) const;
 
 private:
   const BlockMatrix& A_;

@@ -20,7 +20,8 @@ void check(PetscErrorCode code, const char* call)
                            std::to_string(code) + ")");
 }
 
-// Owners of PETSc handles. Destruction cannot throw; its code is of no use to anyone.
+// Owners of PETSc handles. A destructor cannot throw: error codes of the Destroy calls are
+// ignored.
 struct Matrix {
   Mat it = nullptr;
   ~Matrix() { MatDestroy(&it); }
@@ -38,7 +39,7 @@ struct Solver {
   ~Solver() { KSPDestroy(&it); }
 };
 
-// GAMG takes AIJ and the whole matrix; the blocks are stored as their upper half.
+// GAMG needs the AIJ format and both halves of the matrix; K stores the upper half.
 void copy_matrix(const BlockMatrix& K, Matrix& A)
 {
   const auto n = static_cast<PetscInt>(3 * K.n_rows());
@@ -92,25 +93,25 @@ void choose(StaticMethod method, double tolerance, KSP ksp)
     check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS), "PCFactorSetMatSolverType");
     return;
   }
-  constexpr PetscInt most_iterations = 1000;
+  constexpr PetscInt max_iterations = 1000;
   check(KSPSetType(ksp, KSPCG), "KSPSetType");
   check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED), "KSPSetNormType");
-  check(KSPSetTolerances(ksp, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, most_iterations),
+  check(KSPSetTolerances(ksp, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, max_iterations),
         "KSPSetTolerances");
-  // ML would be the alternative, but Debian's (Trilinos 13.2) writes past its own arrays in
-  // ML_Aggregate_Compress_Matrix on these matrices and takes the heap with it.
+  // Not ML: that of Debian (Trilinos 13.2) writes past its arrays in
+  // ML_Aggregate_Compress_Matrix on these matrices and corrupts the heap.
   check(PCSetType(pc, PCGAMG), "PCSetType");
 }
 
 } // namespace
 
-StaticSolution solve_static(const DiscreteSolid& solid, const Nodal& f, StaticMethod method,
-                            double tolerance)
+StaticSolution solve_static(const DiscreteSolid& solid, const NodalField& f,
+                            StaticMethod method, double tolerance)
 {
   const std::size_t n = solid.n_nodes();
   const auto size = static_cast<PetscInt>(3 * n);
   StaticSolution solution;
-  solution.u = Nodal::Zero(4, static_cast<Eigen::Index>(n));
+  solution.u = NodalField::Zero(4, static_cast<Eigen::Index>(n));
 
   Eigen::VectorXd rhs(size), u = Eigen::VectorXd::Zero(size);
   for (std::size_t a = 0; a < n; ++a)
@@ -144,15 +145,15 @@ StaticSolution solve_static(const DiscreteSolid& solid, const Nodal& f, StaticMe
     throw std::runtime_error(std::string("static solve of the far field: stopped after ") +
                              std::to_string(iterations) + " iterations, " +
                              KSPConvergedReasons[reason] +
-                             "; is every rigid motion held, and is nu below 0.499?");
+                             "; is every rigid motion prevented, and is nu below 0.499?");
 
-  for (std::size_t a = 0; a < n;
-       ++a) // the preconditioner leaves the range of P by round-off
+  // The preconditioner leaves the range of P by round-off.
+  for (std::size_t a = 0; a < n; ++a)
     solution.u.col(static_cast<Eigen::Index>(a)).head<3>() =
         (solid.P[a] * u.segment<3>(static_cast<Eigen::Index>(3 * a))).array();
   solution.iterations = static_cast<int>(iterations);
 
-  Nodal Ku;
+  NodalField Ku;
   solid.K.multiply(solution.u, Ku);
   double squares = 0.0;
   for (std::size_t a = 0; a < n; ++a)
@@ -164,7 +165,7 @@ StaticSolution solve_static(const DiscreteSolid& solid, const Nodal& f, StaticMe
     throw std::runtime_error("static solve of the far field: relative residual " +
                              std::to_string(solution.residual) +
                              " against a tolerance of " + std::to_string(tolerance) +
-                             "; is every rigid motion held?");
+                             "; is every rigid motion prevented?");
   return solution;
 }
 

@@ -17,7 +17,7 @@ void write_array(hid_t file, const std::string& name, hid_t type, const void* da
                  const Shape& shape)
 {
   const Handle plain(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe an array");
-  H5Pset_obj_track_times(plain, false); // equal data, equal files
+  H5Pset_obj_track_times(plain, false); // equal data give equal files
   Handle array = create_array(file, name, type, shape, plain);
   if (shape.rows > 0 && H5Dwrite(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
     throw NumericalError("HDF5 cannot write " + name);
@@ -30,10 +30,10 @@ Shape shape_of(hid_t array, const std::string& name, std::size_t size_of_number)
   hsize_t size[2] = {0, 1};
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank < 1 || rank > 2 || H5Sget_simple_extent_dims(space, size, nullptr) < 0)
-    throw NumericalError("the shape is wrong of " + name);
+    throw NumericalError("wrong shape of " + name);
   const hsize_t stored = H5Dget_storage_size(array);
   if (size[1] == 0 || size[0] > stored / size_of_number / size[1])
-    throw NumericalError("data are missing of " + name);
+    throw NumericalError("missing data of " + name);
   return {size[0], size[1]};
 }
 

@@ -1,4 +1,4 @@
-/// HDF5 in the small: handles that close themselves, arrays, attributes.
+/// Wrappers of HDF5: handles, arrays, attributes.
 #pragma once
 
 #include "dem/error.h"
@@ -11,7 +11,7 @@
 
 namespace mergel::dem::hdf5 {
 
-/// A handle with its own way to close.
+/// A handle, closed by the destructor.
 class Handle {
 public:
   Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close)
@@ -26,7 +26,7 @@ public:
   Handle& operator=(const Handle&) = delete;
   operator hid_t() const { return id_; }
 
-  /// Close now and notice a failure, such as a full disk.
+  /// Close now and report a failure, such as a full disk.
   void finish(const std::string& what)
   {
     const herr_t status = close_(id_);
@@ -39,8 +39,8 @@ private:
   herr_t (*close_)(hid_t);
 };
 
-/// HDF5 prints its own stack of errors unless told not to, and at exit a complaint about
-/// each damaged file that it could not close. Every handle here closes itself.
+/// Switches off the messages of HDF5: its stack of errors, and at exit a message for each
+/// damaged file that it could not close. Handles here close themselves.
 class Quiet {
 public:
   Quiet()
@@ -63,17 +63,17 @@ struct Shape {
   hsize_t rows = 0, columns = 1;
 };
 
-/// All below throw NumericalError, naming what HDF5 cannot do.
+/// All functions below throw NumericalError, naming what HDF5 cannot do.
 
-/// A new array of this shape, to be written.
+/// Create an array of this shape.
 Handle create_array(hid_t file, const std::string& name, hid_t type, const Shape& shape,
                     hid_t creation = H5P_DEFAULT);
 
 void write_array(hid_t file, const std::string& name, hid_t type, const void* data,
                  const Shape& shape);
 
-/// Shape of an array whose data are all there: a changed size must not ask for more memory
-/// than the file can fill.
+/// Shape of an array, after a check that all of its data are in the file: a changed size
+/// must not cause an allocation larger than the stored data.
 Shape shape_of(hid_t array, const std::string& name, std::size_t size_of_number);
 
 void read_into(hid_t array, const std::string& name, hid_t type, void* data);
@@ -85,7 +85,7 @@ std::vector<T> read_array(hid_t file, const std::string& name, hid_t type, hsize
   const Handle array(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "find " + name);
   require_plain_array(array, name, type);
   const Shape shape = shape_of(array, name, sizeof(T));
-  if (shape.columns != columns) throw NumericalError("the shape is wrong of " + name);
+  if (shape.columns != columns) throw NumericalError("wrong shape of " + name);
   std::vector<T> data(shape.rows * columns);
   if (!data.empty()) read_into(array, name, type, data.data());
   return data;

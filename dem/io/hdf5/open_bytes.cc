@@ -4,9 +4,9 @@ namespace mergel::dem::hdf5 {
 
 namespace {
 
-constexpr std::size_t growth = 1 << 20; ///< of a file in memory, which HDF5 asks for
+constexpr std::size_t growth = 1 << 20; ///< of a file in memory; HDF5 requires a value
 
-/// Lets HDF5 read a file's bytes where they are, instead of two copies of them.
+/// Let HDF5 read the bytes of a file in place, without two copies of them.
 void read_in_place(hid_t access, std::string& bytes)
 {
   H5FD_file_image_callbacks_t calls = {};
@@ -16,10 +16,10 @@ void read_in_place(hid_t access, std::string& bytes)
     return size == all.size() ? all.data() : nullptr;
   };
   calls.image_memcpy = [](void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) {
-    return to; // it is there
+    return to; // the bytes are there already
   };
   calls.image_realloc = [](void*, std::size_t, H5FD_file_image_op_t, void*) -> void* {
-    return nullptr; // what is read does not grow
+    return nullptr; // a file that is only read does not grow
   };
   calls.image_free = [](void*, H5FD_file_image_op_t, void*) -> herr_t { return 0; };
   calls.udata_copy = [](void* held) { return held; };
@@ -33,7 +33,7 @@ hid_t opened(hid_t access, std::string& bytes, const std::filesystem::path& path
 {
   H5Pset_fapl_core(access, growth, false);
   read_in_place(access, bytes);
-  // HDF5 wants a name that no file has: there is none below a file.
+  // HDF5 needs a name that no file has: no file can lie below another file.
   return H5Fopen((path / "in memory").c_str(), H5F_ACC_RDONLY, access);
 }
 

@@ -1,4 +1,5 @@
-/// An HDF5 file that is read from memory: what HDF5 reads is what was summed.
+/// An HDF5 file that is read from memory: HDF5 reads the bytes of which the checksum was
+/// computed.
 #pragma once
 
 #include "dem/io/hdf5/hdf5.h"
@@ -8,11 +9,11 @@
 
 namespace mergel::dem::hdf5 {
 
-/// The bytes stay where they are; they must outlive it.
+/// The bytes are not copied; they must outlive the object.
 class OpenBytes {
 public:
-  /// @param path of the file that they are from
-  /// @throws NumericalError when they are no HDF5 file
+  /// @param path of the file from which the bytes were read
+  /// @throws NumericalError when the bytes are no HDF5 file
   OpenBytes(std::string& bytes, const std::filesystem::path& path);
   hid_t file() const { return file_; }
 

@@ -19,62 +19,63 @@ void append(std::vector<ExactWide*>& to, ExactVector<Sum>& v)
   to.insert(to.end(), {&v.x.raw(), &v.y.raw(), &v.z.raw()});
 }
 
-/// Of one rank or of all: as ExactReduction has it, the ones that are summed.
-std::vector<ExactWide*> sums_of_ranks(Rock& rock)
+/// The sums of which each rank holds a part; ExactReduction adds them up.
+std::vector<ExactWide*> sums_of_ranks(Assembly& assembly)
 {
   std::vector<ExactWide*> sums;
-  for (EnergySum* s : {&rock.losses.slip, &rock.losses.plastic, &rock.losses.residue,
-                       &rock.work.gravity, &rock.work.damping, &rock.work.lock})
+  for (EnergySum* s :
+       {&assembly.losses.slip, &assembly.losses.plastic, &assembly.losses.breakage_release,
+        &assembly.work.gravity, &assembly.work.damping, &assembly.work.rotation_constraint})
     sums.push_back(&s->raw());
-  for (Mirror& m : rock.mirrors) {
+  for (Mirror& m : assembly.mirrors) {
     sums.push_back(&m.energy.raw());
     append(sums, m.force);
   }
   return sums;
 }
 
-/// What every rank knows in full.
-std::vector<ExactWide*> sums_of_all(Rock& rock)
+/// The sums of which every rank holds the total.
+std::vector<ExactWide*> sums_of_all(Assembly& assembly)
 {
-  std::vector<ExactWide*> sums{&rock.wall_work.raw(), &rock.pile_work.raw(),
-                               &rock.cell_work.raw()};
-  append(sums, rock.virial);
-  for (PlaneWall& w : rock.planes) append(sums, w.force);
-  for (Wall& w : rock.walls)
+  std::vector<ExactWide*> sums{&assembly.wall_work.raw(), &assembly.pile_work.raw(),
+                               &assembly.cell_work.raw()};
+  append(sums, assembly.virial);
+  for (PlaneWall& w : assembly.planes) append(sums, w.force);
+  for (Wall& w : assembly.walls)
     for (VectorSum& f : w.f) append(sums, f);
-  for (PileWall& w : rock.piles) {
+  for (PileWall& w : assembly.piles) {
     append(sums, w.load.cone);
     append(sums, w.load.shaft);
   }
   return sums;
 }
 
-/// A copy of what the sums of a rock need, and no more.
-Rock copy_of_sums(const Rock& rock)
+/// A copy of the sums of an assembly only.
+Assembly copy_of_sums(const Assembly& assembly)
 {
-  Rock copy;
-  copy.losses.slip = rock.losses.slip;
-  copy.losses.plastic = rock.losses.plastic;
-  copy.losses.residue = rock.losses.residue;
-  copy.work = rock.work;
-  copy.wall_work = rock.wall_work;
-  copy.pile_work = rock.pile_work;
-  copy.cell_work = rock.cell_work;
-  copy.virial = rock.virial;
-  for (const Mirror& m : rock.mirrors) {
+  Assembly copy;
+  copy.losses.slip = assembly.losses.slip;
+  copy.losses.plastic = assembly.losses.plastic;
+  copy.losses.breakage_release = assembly.losses.breakage_release;
+  copy.work = assembly.work;
+  copy.wall_work = assembly.wall_work;
+  copy.pile_work = assembly.pile_work;
+  copy.cell_work = assembly.cell_work;
+  copy.virial = assembly.virial;
+  for (const Mirror& m : assembly.mirrors) {
     copy.mirrors.emplace_back();
     copy.mirrors.back().energy = m.energy;
     copy.mirrors.back().force = m.force;
   }
-  for (const PlaneWall& w : rock.planes) copy.planes.emplace_back().force = w.force;
-  for (const Wall& w : rock.walls) copy.walls.emplace_back().f = w.f;
-  for (const PileWall& w : rock.piles) copy.piles.emplace_back().load = w.load;
+  for (const PlaneWall& w : assembly.planes) copy.planes.emplace_back().force = w.force;
+  for (const Wall& w : assembly.walls) copy.walls.emplace_back().f = w.f;
+  for (const PileWall& w : assembly.piles) copy.piles.emplace_back().load = w.load;
   return copy;
 }
 
 } // namespace
 
-void put_sums(State& state, const std::string& name, const std::vector<ExactWide*>& sums)
+void save_sums(State& state, const std::string& name, const std::vector<ExactWide*>& sums)
 {
   std::vector<std::uint64_t> raw(words * sums.size());
   for (std::size_t k = 0; k < sums.size(); ++k)
@@ -82,7 +83,7 @@ void put_sums(State& state, const std::string& name, const std::vector<ExactWide
   state.add_common(name, std::move(raw), words);
 }
 
-void take_sums(const State& state, const std::string& name,
+void load_sums(const State& state, const std::string& name,
                const std::vector<ExactWide*>& sums)
 {
   const auto& raw = state.get_rows<std::uint64_t>(name, sums.size(), words);
@@ -90,66 +91,69 @@ void take_sums(const State& state, const std::string& name,
     std::memcpy(sums[k], &raw[words * k], sizeof(ExactWide));
 }
 
-void put(State& state, const Rock& rock)
+void save(State& state, const Assembly& assembly)
 {
-  const Particles& p = rock.particles;
-  put_grains(state, p);
-  put_bonds(state, p, rock.bonds);
-  put_contacts(state, p, rock.contacts);
-  put_breakages(state, rock.losses);
+  const Particles& p = assembly.particles;
+  save_particles(state, p);
+  save_bonds(state, p, assembly.bonds);
+  save_contacts(state, p, assembly.contacts);
+  save_breakages(state, assembly.losses);
   std::vector<double> cell;
-  for (const Vec3& a : {rock.cell.size, rock.cell.rate}) append(cell, a);
+  for (const Vec3& a : {assembly.cell.size, assembly.cell.rate}) append(cell, a);
   state.add_common("cell", std::move(cell), 6);
-  state.add_common<std::uint64_t>("cell_is_driven", {rock.cell.is_driven ? 1u : 0u});
-  put_walls(state, rock);
+  state.add_common<std::uint64_t>("cell_is_driven",
+                                  {assembly.cell.is_strain_controlled ? 1u : 0u});
+  save_walls(state, assembly);
   state.add_common<std::uint64_t>("bonds_broken_and_yielded",
-                                  {rock.comm.global_sum(rock.losses.broken),
-                                   rock.comm.global_sum(rock.losses.yielded)});
+                                  {assembly.comm.global_sum(assembly.losses.broken),
+                                   assembly.comm.global_sum(assembly.losses.yielded)});
   std::vector<std::uint64_t> broken_by;
-  for (const std::size_t k : rock.losses.broken_by)
-    broken_by.push_back(rock.comm.global_sum(k));
+  for (const std::size_t k : assembly.losses.broken_by)
+    broken_by.push_back(assembly.comm.global_sum(k));
   state.add_common("bonds_broken_by_mode", std::move(broken_by));
 
-  Rock copy = copy_of_sums(rock);
+  Assembly copy = copy_of_sums(assembly);
   ExactReduction all;
-  for (EnergySum* s : {&copy.losses.slip, &copy.losses.plastic, &copy.losses.residue,
-                       &copy.work.gravity, &copy.work.damping, &copy.work.lock})
+  for (EnergySum* s :
+       {&copy.losses.slip, &copy.losses.plastic, &copy.losses.breakage_release,
+        &copy.work.gravity, &copy.work.damping, &copy.work.rotation_constraint})
     all.add(*s);
   for (Mirror& m : copy.mirrors) {
     all.add(m.energy);
     all.add(m.force);
   }
-  all.run(rock.comm);
-  put_sums(state, "sums_over_grains", sums_of_ranks(copy));
-  put_sums(state, "sums_on_walls", sums_of_all(copy));
+  all.run(assembly.comm);
+  save_sums(state, "sums_over_grains", sums_of_ranks(copy));
+  save_sums(state, "sums_on_walls", sums_of_all(copy));
 }
 
-void take(State& state, Rock& rock)
+void load(State& state, Assembly& assembly)
 {
-  check_walls(state, rock);
-  rock.comm = Communicator();
-  rock.particles = take_grains(state);
+  check_walls(state, assembly);
+  assembly.comm = Communicator();
+  assembly.particles = load_particles(state);
   state.forget("grain");
-  const std::size_t n = rock.particles.size();
-  rock.bonds = take_bonds(state, n);
+  const std::size_t n = assembly.particles.size();
+  assembly.bonds = load_bonds(state, n);
   state.forget("bond_");
-  rock.contacts = take_contacts(state, n);
+  assembly.contacts = load_contacts(state, n);
   state.forget("contact_");
   const auto& cell = state.get_rows<double>("cell", 1, 6);
-  rock.cell.size = vec_at(cell, 0);
-  rock.cell.rate = vec_at(cell, 3);
-  rock.cell.is_driven = state.get_rows<std::uint64_t>("cell_is_driven", 1)[0] != 0;
-  take_walls(state, n, rock);
+  assembly.cell.size = vec_at(cell, 0);
+  assembly.cell.rate = vec_at(cell, 3);
+  assembly.cell.is_strain_controlled =
+      state.get_rows<std::uint64_t>("cell_is_driven", 1)[0] != 0;
+  load_walls(state, n, assembly);
   const auto& counts = state.get_rows<std::uint64_t>("bonds_broken_and_yielded", 2);
-  rock.losses.broken = counts[0];
-  rock.losses.yielded = counts[1];
+  assembly.losses.broken = counts[0];
+  assembly.losses.yielded = counts[1];
   const auto& broken_by =
       state.get_rows<std::uint64_t>("bonds_broken_by_mode", n_break_modes);
-  std::copy(broken_by.begin(), broken_by.end(), rock.losses.broken_by.begin());
-  rock.losses.breakages = take_breakages(state, n);
-  take_sums(state, "sums_over_grains", sums_of_ranks(rock));
-  take_sums(state, "sums_on_walls", sums_of_all(rock));
-  rock.list.invalidate();
+  std::copy(broken_by.begin(), broken_by.end(), assembly.losses.broken_by.begin());
+  assembly.losses.breakages = load_breakages(state, n);
+  load_sums(state, "sums_over_grains", sums_of_ranks(assembly));
+  load_sums(state, "sums_on_walls", sums_of_all(assembly));
+  assembly.list.invalidate();
 }
 
 } // namespace mergel::dem

@@ -1,14 +1,15 @@
-/// The state of a rock as named arrays: what must be kept for it to go on with the same
-/// bits.
+/// The state of an assembly as named arrays: all that a run needs to resume with the same
+/// bits (dem/README.md, Parallel execution).
 ///
-/// Kept: motion, loads and living bonds of every grain; every bond with its history, broken
-/// ones too; the shear of touching contacts; histories at mirror, planes, walls and pile;
-/// place and velocity of planes, wall nodes and pile; the exact sums of forces on them, of
-/// losses and works; counts of broken and yielded bonds, and breakages not yet taken.
+/// Saved: motion, loads and number of intact bonds of each particle; every bond with its
+/// history, broken bonds too; shear forces of contacts; histories at mirror, planes, walls
+/// and pile; position and velocity of planes, wall nodes and pile; exact sums of the forces
+/// on them, of losses and works; numbers of broken and yielded bonds; breakages not yet
+/// written out.
 ///
-/// Not kept: what the case says (materials, strengths of grains, gravity, topology of walls)
-/// and what a list holds without acting: an open contact has no history, and lists are made
-/// anew. Wall-clock times.
+/// Not saved: what the case determines (materials, strengths of particles, gravity,
+/// topology of walls); open contacts, which have no history; lists, which are rebuilt;
+/// wall-clock times.
 #pragma once
 
 #include "dem/assembly/step.h"
@@ -16,18 +17,19 @@
 
 namespace mergel::dem {
 
-/// Add the rock to a state; each rank its share. Collective.
-void put(State& state, const Rock& rock);
+/// Add the assembly to a state, each rank its own part. Collective.
+void save(State& state, const Assembly& assembly);
 
-/// Put the kept state into a rock that has the walls, planes, mirrors and piles of its
-/// case. The rock is then whole: every rank has all of it, in ascending order. The arrays of
-/// grains, bonds and contacts are freed on the way: a rank need not hold all of it twice.
-/// @throws InputError when the arrays do not fit each other or the rock
-void take(State& state, Rock& rock);
+/// Load a state into an assembly that has the walls, planes, mirrors and piles of its case.
+/// The assembly is then a gathered one: every rank has all of it, in ascending order. The
+/// arrays of particles, bonds and contacts are freed meanwhile, so that a rank does not
+/// hold them twice.
+/// @throws InputError when the arrays do not fit each other or the assembly
+void load(State& state, Assembly& assembly);
 
-/// Exact sums as whole numbers, words of 64 bits, the lowest first.
-void put_sums(State& state, const std::string& name, const std::vector<ExactWide*>& sums);
-void take_sums(const State& state, const std::string& name,
+/// Exact sums as integers in words of 64 bits, the lowest first.
+void save_sums(State& state, const std::string& name, const std::vector<ExactWide*>& sums);
+void load_sums(const State& state, const std::string& name,
                const std::vector<ExactWide*>& sums);
 
 } // namespace mergel::dem

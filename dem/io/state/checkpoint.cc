@@ -43,7 +43,7 @@ void write_checkpoint(const fs::path& file, const CheckpointLabel& label, State 
 {
   mine.add_text("label_program", label.program);
   mine.add_text("label_job", label.job);
-  mine.add_text("label_stage", label.stage);
+  mine.add_text("label_stage", label.phase);
   mine.add_text("label_case", label.case_text);
   mine.add_common<std::uint64_t>("label_step", {label.step});
   mine.add_common<double>("label_time", {label.time});

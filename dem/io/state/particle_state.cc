@@ -7,44 +7,44 @@ namespace mergel::dem {
 
 namespace {
 
-constexpr std::size_t body_columns = 12, load_columns = 6;
+constexpr std::size_t state_columns = 12, load_columns = 6;
 
 } // namespace
 
-void put_grains(State& state, const Particles& p)
+void save_particles(State& state, const Particles& p)
 {
   std::vector<std::uint32_t> number;
-  std::vector<double> body, load;
+  std::vector<double> states, load;
   std::vector<std::int32_t> n_bonds;
   p.for_owned([&](Index i) {
-    const Body& b = p.body[i];
+    const ParticleState& b = p.state[i];
     number.push_back(i);
-    for (const Vec3& a : {b.x, b.v, b.omega}) append(body, a);
-    body.insert(body.end(), {b.R, b.S, b.m});
+    for (const Vec3& a : {b.x, b.v, b.omega}) append(states, a);
+    states.insert(states.end(), {b.R, b.S, b.m});
     append(load, p.load[i].f);
     append(load, p.load[i].t);
     n_bonds.push_back(p.n_bonds[i]);
   });
   state.add("grains", std::move(number));
-  state.add("grain_bodies", std::move(body), body_columns);
+  state.add("grain_bodies", std::move(states), state_columns);
   state.add("grain_loads", std::move(load), load_columns);
   state.add("grain_bonds", std::move(n_bonds));
 }
 
-Particles take_grains(const State& state)
+Particles load_particles(const State& state)
 {
   const auto& number = state.get<std::uint32_t>("grains");
   const std::size_t n = number.size();
-  const auto& body = state.get_rows<double>("grain_bodies", n, body_columns);
+  const auto& states = state.get_rows<double>("grain_bodies", n, state_columns);
   const auto& load = state.get_rows<double>("grain_loads", n, load_columns);
   const auto& n_bonds = state.get_rows<std::int32_t>("grain_bonds", n);
   const auto order = ascending("grains", n, [&](std::size_t k) { return number[k]; });
-  if (n > 0 && number[order.back()] != n - 1) State::refuse("grains", "leaves some out");
+  if (n > 0 && number[order.back()] != n - 1) State::refuse("grains", "is not complete");
 
   Particles p;
   for (const std::size_t k : order) {
-    const double* a = &body[k * body_columns];
-    Body b;
+    const double* a = &states[k * state_columns];
+    ParticleState b;
     b.x = {a[0], a[1], a[2]};
     b.v = {a[3], a[4], a[5]};
     b.omega = {a[6], a[7], a[8]};
@@ -52,7 +52,7 @@ Particles take_grains(const State& state)
     b.S = a[10];
     b.m = a[11];
     if (!(b.R > 0.0 && b.S > 0.0 && b.m > 0.0))
-      State::refuse("grain_bodies", "has a grain without size or mass");
+      State::refuse("grain_bodies", "has a particle without size or mass");
     const Index i = p.add(b);
     p.load[i].f = vec_at(load, k * load_columns);
     p.load[i].t = vec_at(load, k * load_columns + 3);
@@ -63,36 +63,36 @@ Particles take_grains(const State& state)
 
 namespace {
 
-/// Pairs as two arrays; the periodic shift of most rocks is all zero.
+/// Pairs as two arrays: particles, and the periodic shifts.
 class PairColumns {
 public:
   void append(const Pair& q)
   {
-    grains_.insert(grains_.end(), {q.i, q.j});
+    particles_.insert(particles_.end(), {q.i, q.j});
     shifts_.insert(shifts_.end(), q.shift.begin(), q.shift.end());
   }
-  void put(State& state, const std::string& name)
+  void save(State& state, const std::string& name)
   {
-    state.add(name + "_pairs", std::move(grains_), 2);
+    state.add(name + "_pairs", std::move(particles_), 2);
     state.add(name + "_shifts", std::move(shifts_), 3);
   }
 
 private:
-  std::vector<std::uint32_t> grains_;
+  std::vector<std::uint32_t> particles_;
   std::vector<std::int16_t> shifts_;
 };
 
-std::vector<Pair> take_pairs(const State& state, const std::string& name, std::size_t n)
+std::vector<Pair> load_pairs(const State& state, const std::string& name, std::size_t n)
 {
-  const auto& grains = state.get<std::uint32_t>(name + "_pairs", 2);
-  const std::size_t n_pairs = grains.size() / 2;
+  const auto& particles = state.get<std::uint32_t>(name + "_pairs", 2);
+  const std::size_t n_pairs = particles.size() / 2;
   const auto& shifts = state.get_rows<std::int16_t>(name + "_shifts", n_pairs, 3);
   std::vector<Pair> pairs;
   for (std::size_t k = 0; k < n_pairs; ++k) {
-    if (grains[2 * k] >= grains[2 * k + 1] || grains[2 * k + 1] >= n)
-      State::refuse(name + "_pairs", "names grains that cannot be a pair");
-    pairs.push_back({grains[2 * k],
-                     grains[2 * k + 1],
+    if (particles[2 * k] >= particles[2 * k + 1] || particles[2 * k + 1] >= n)
+      State::refuse(name + "_pairs", "names particles that cannot be a pair");
+    pairs.push_back({particles[2 * k],
+                     particles[2 * k + 1],
                      {shifts[3 * k], shifts[3 * k + 1], shifts[3 * k + 2]}});
   }
   return pairs;
@@ -102,7 +102,7 @@ constexpr std::size_t bond_columns = std::tuple_size_v<BondHistory>;
 
 } // namespace
 
-void put_bonds(State& state, const Particles& p, const Bonds& bonds)
+void save_bonds(State& state, const Particles& p, const Bonds& bonds)
 {
   PairColumns pairs;
   std::vector<double> history;
@@ -112,13 +112,13 @@ void put_bonds(State& state, const Particles& p, const Bonds& bonds)
     const BondHistory h = history_of(bonds, b);
     history.insert(history.end(), h.begin(), h.end());
   }
-  pairs.put(state, "bond");
+  pairs.save(state, "bond");
   state.add("bond_histories", std::move(history), bond_columns);
 }
 
-Bonds take_bonds(const State& state, std::size_t n)
+Bonds load_bonds(const State& state, std::size_t n)
 {
-  const std::vector<Pair> pairs = take_pairs(state, "bond", n);
+  const std::vector<Pair> pairs = load_pairs(state, "bond", n);
   const auto& history =
       state.get_rows<double>("bond_histories", pairs.size(), bond_columns);
   Bonds bonds;
@@ -131,23 +131,22 @@ Bonds take_bonds(const State& state, std::size_t n)
   return bonds;
 }
 
-void put_contacts(State& state, const Particles& p, const Contacts& contacts)
+void save_contacts(State& state, const Particles& p, const Contacts& contacts)
 {
   PairColumns pairs;
   std::vector<double> shear;
   for (std::size_t c = 0; c < contacts.pairs.size(); ++c) {
-    if (!p.owns(contacts.pairs[c].i) || !says_something(contacts.shear[c].f_s, 0.0))
-      continue;
+    if (!p.owns(contacts.pairs[c].i) || !is_nonzero(contacts.shear[c].f_s, 0.0)) continue;
     pairs.append(contacts.pairs[c]);
     append(shear, contacts.shear[c].f_s);
   }
-  pairs.put(state, "contact");
+  pairs.save(state, "contact");
   state.add("contact_shears", std::move(shear), 3);
 }
 
-Contacts take_contacts(const State& state, std::size_t n)
+Contacts load_contacts(const State& state, std::size_t n)
 {
-  const std::vector<Pair> pairs = take_pairs(state, "contact", n);
+  const std::vector<Pair> pairs = load_pairs(state, "contact", n);
   const auto& shear = state.get_rows<double>("contact_shears", pairs.size(), 3);
   Contacts contacts;
   for (const std::size_t from :
@@ -158,7 +157,7 @@ Contacts take_contacts(const State& state, std::size_t n)
   return contacts;
 }
 
-void put_breakages(State& state, const PairLosses& losses)
+void save_breakages(State& state, const PairLosses& losses)
 {
   PairColumns pairs;
   std::vector<double> x;
@@ -168,20 +167,20 @@ void put_breakages(State& state, const PairLosses& losses)
     append(x, b.x);
     mode.push_back(static_cast<std::int32_t>(b.mode));
   }
-  pairs.put(state, "breakage");
+  pairs.save(state, "breakage");
   state.add("breakage_modes", std::move(mode));
   state.add("breakage_places", std::move(x), 3);
 }
 
-std::vector<Breakage> take_breakages(const State& state, std::size_t n)
+std::vector<Breakage> load_breakages(const State& state, std::size_t n)
 {
-  const std::vector<Pair> pairs = take_pairs(state, "breakage", n);
+  const std::vector<Pair> pairs = load_pairs(state, "breakage", n);
   const auto& x = state.get_rows<double>("breakage_places", pairs.size(), 3);
   const auto& mode = state.get_rows<std::int32_t>("breakage_modes", pairs.size());
   std::vector<Breakage> breakages;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (mode[k] < 0 || mode[k] >= static_cast<std::int32_t>(n_break_modes))
-      State::refuse("breakage_modes", "names a load that there is not");
+      State::refuse("breakage_modes", "names an unknown breakage mode");
     breakages.push_back({pairs[k], vec_at(x, 3 * k), static_cast<BreakMode>(mode[k])});
   }
   return breakages;

@@ -1,5 +1,5 @@
-/// Grains of a rock, and what is between them, as arrays of a state. Each rank puts its
-/// share; what is taken is whole, in ascending order.
+/// Particles, bonds and contacts as arrays of a state. Each rank saves its own part; what
+/// is loaded is complete, in ascending order.
 #pragma once
 
 #include "dem/assembly/step.h"
@@ -7,23 +7,23 @@
 
 namespace mergel::dem {
 
-void put_grains(State& state, const Particles& p);
-/// @throws InputError when some are missing, or have no size or mass
-Particles take_grains(const State& state);
+void save_particles(State& state, const Particles& p);
+/// @throws InputError when particles are missing, or have no size or mass
+Particles load_particles(const State& state);
 
-/// Bonds with their histories, broken ones too.
-void put_bonds(State& state, const Particles& p, const Bonds& bonds);
-/// @param n grains there are, here and below
-/// @throws InputError when a pair is none of them, or is named twice, as below
-Bonds take_bonds(const State& state, std::size_t n);
+/// Bonds with their histories, broken bonds too.
+void save_bonds(State& state, const Particles& p, const Bonds& bonds);
+/// @param n number of particles, here and below
+/// @throws InputError when a pair is not one of these particles, or occurs twice; as below
+Bonds load_bonds(const State& state, std::size_t n);
 
 /// Contacts that have a history.
-void put_contacts(State& state, const Particles& p, const Contacts& contacts);
-Contacts take_contacts(const State& state, std::size_t n);
+void save_contacts(State& state, const Particles& p, const Contacts& contacts);
+Contacts load_contacts(const State& state, std::size_t n);
 
-/// Breakages not yet taken.
-void put_breakages(State& state, const PairLosses& losses);
-/// In the order of the ranks that put them; a pair may be named twice.
-std::vector<Breakage> take_breakages(const State& state, std::size_t n);
+/// Breakages not yet written out.
+void save_breakages(State& state, const PairLosses& losses);
+/// In the order of the ranks that saved them; a pair may occur twice.
+std::vector<Breakage> load_breakages(const State& state, std::size_t n);
 
 } // namespace mergel::dem

@@ -32,7 +32,7 @@ Seal seal_of(const std::string& kind)
   return {kind, "64-bit sum", "take an older one", sum_of_words};
 }
 
-/// Every rank calls it with what went wrong there, "" for nothing; all throw the first.
+/// Collective: each rank gives its failure, "" for none; all ranks throw the first one.
 void agree(const Communicator& comm, const std::string& wrong)
 {
   const std::vector<char> all = comm.gather(std::vector<char>(
@@ -55,9 +55,9 @@ void all_or_none(const Communicator& comm, F&& f)
 }
 
 constexpr std::size_t room_for_descriptions = 65536;
-constexpr double patience = 5.0; ///< with a slow network file system [s]
+constexpr double timeout = 5.0; ///< with a slow network file system [s]
 
-/// Describe the arrays, of so many rows each; returns where the rows of each begin.
+/// Create the file with its arrays of `rows` rows each; returns the offset of each array.
 std::vector<std::uint64_t> lay_out(const fs::path& path, const std::string& kind,
                                    int version, const State& state,
                                    const std::vector<std::uint64_t>& rows)
@@ -83,7 +83,7 @@ std::vector<std::uint64_t> lay_out(const fs::path& path, const std::string& kind
     Handle set = create_array(file, name, type, {rows[begin.size()], array.columns}, early);
     const haddr_t offset = H5Dget_offset(set);
     if (offset == HADDR_UNDEF && rows[begin.size()] > 0)
-      throw NumericalError("HDF5 cannot tell the place of " + name);
+      throw NumericalError("HDF5 cannot give the offset of " + name);
     begin.push_back(offset == HADDR_UNDEF ? 0 : offset);
     set.finish("write " + name);
   }
@@ -104,7 +104,7 @@ StateArray read_one(hid_t array, const std::string& name)
   std::vector<T> values(shape.rows * shape.columns);
   if (!values.empty()) hdf5::read_into(array, name, type_of<T>(), values.data());
   if constexpr (std::is_same_v<T, double>)
-    if (!is_finite(values)) throw NumericalError(name + " holds what is not a number");
+    if (!is_finite(values)) throw NumericalError(name + " has a number that is not finite");
   return {std::move(values), shape.columns};
 }
 
@@ -114,7 +114,7 @@ StateArray read_any(hid_t file, const std::string& name)
   require_own(file, name);
   const Handle array(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "open " + name);
   require_in_one_piece(array, name);
-  const Handle type(H5Dget_type(array), H5Tclose, "tell the type of " + name);
+  const Handle type(H5Dget_type(array), H5Tclose, "read the type of " + name);
   const auto is = [&](hid_t native) { return H5Tequal(type, native) > 0; };
   if (is(H5T_NATIVE_DOUBLE)) return read_one<double>(array, name);
   if (is(H5T_NATIVE_UINT64)) return read_one<std::uint64_t>(array, name);
@@ -122,7 +122,7 @@ StateArray read_any(hid_t file, const std::string& name)
   if (is(H5T_NATIVE_INT32)) return read_one<std::int32_t>(array, name);
   if (is(H5T_NATIVE_INT16)) return read_one<std::int16_t>(array, name);
   if (is(H5T_NATIVE_CHAR)) return read_one<char>(array, name);
-  throw NumericalError("the type is wrong of " + name);
+  throw NumericalError("wrong type of " + name);
 }
 
 herr_t add_name(hid_t, const char* name, const H5L_info_t*, void* names)
@@ -140,7 +140,7 @@ std::string read_format(hid_t file)
   const std::size_t size = H5Tget_size(type);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || size == 0 ||
       size > 1000)
-    throw NumericalError("its format has no name");
+    throw NumericalError("its format is not a text");
   std::string text(size, '\0');
   if (H5Aread(a, type, text.data()) < 0)
     throw NumericalError("HDF5 cannot read its format");
@@ -168,7 +168,7 @@ void write_state(const fs::path& file, const std::string& kind, int version,
     for (const auto& [name, array] : mine.arrays())
       if (const auto* values = std::get_if<std::vector<double>>(&array.values);
           values && !is_finite(*values))
-        throw NumericalError("the state holds what is not a number (" + name +
+        throw NumericalError("the state has a number that is not finite (" + name +
                              "): the run is unstable, and " + file.string() +
                              " was not written");
   });
@@ -193,11 +193,11 @@ void write_state(const fs::path& file, const std::string& kind, int version,
     std::vector<FileMark> mark;
     all_or_none(comm, [&] {
       if (comm.rank() != 0) return;
-      fs::remove(path); // of a run that was killed
+      fs::remove(path); // left by a run that was killed
       SharedFile(path, file, SharedFile::Way::make)
           .require_room(bytes, SharedFile::Size::grows);
       begin = lay_out(path, kind, version, mine, rows);
-      // HDF5 begins anew and gives the room back: take it again before the rows come.
+      // HDF5 truncates the file and frees the reserved room: reserve it again for the rows.
       SharedFile made(path, file, SharedFile::Way::find);
       made.require_room(bytes, SharedFile::Size::stays);
       if (!comm.is_alone()) mark.push_back(made.mark(me));
@@ -206,11 +206,11 @@ void write_state(const fs::path& file, const std::string& kind, int version,
     mark = comm.gather(mark);
     std::vector<Piece> pieces;
     all_or_none(comm, [&] {
-      if (comm.rank() != 0) require_mark(path, file, mark.front(), me, patience);
+      if (comm.rank() != 0) require_mark(path, file, mark.front(), me, timeout);
       SharedFile out(path, file, SharedFile::Way::find);
       std::size_t k = 0;
       for (const auto& [name, array] : mine.arrays()) {
-        const std::uint64_t first = before[k] * array.columns; // number of mine
+        const std::uint64_t first = before[k] * array.columns; // first number of this rank
         std::visit(
             [&](const auto& v) {
               const std::size_t size = sizeof(v[0]);
@@ -230,7 +230,7 @@ void write_state(const fs::path& file, const std::string& kind, int version,
     all_or_none(comm, [&] {
       if (comm.rank() != 0) return;
       if (!mark.empty())
-        SharedFile(path, file, SharedFile::Way::find).take_off(mark.front());
+        SharedFile(path, file, SharedFile::Way::find).remove_mark(mark.front());
       seal(path, read_back(path, file, pieces), seal_of(kind));
     });
   };
@@ -243,7 +243,7 @@ void write_state(const fs::path& file, const std::string& kind, int version,
   try {
     replace_file(file, write);
   } catch (const CollectiveFailure&) {
-    throw; // the others know
+    throw; // thrown on all ranks
   } catch (const std::exception& e) {
     wrong = e.what();
   }
@@ -259,10 +259,10 @@ State read_state(const fs::path& path, const std::string& kind, int version,
   std::string bytes = unsealed(path, seal, sum);
   State state;
   try {
-    const OpenBytes memory(bytes, path); // what is read is what was summed
+    const OpenBytes memory(bytes, path); // the bytes of which the checksum was computed
     const hid_t file = memory.file();
     if (const std::string format = read_format(file); format != "mergel " + kind)
-      throw InputError("is a " + format + ", no mergel " + kind);
+      throw InputError("is a " + format + ", not a mergel " + kind);
     int found = 0;
     read_attribute(file, "version", H5T_NATIVE_INT, &found);
     if (found != version)

@@ -1,8 +1,9 @@
-/// Named arrays on disk (HDF5), written by all ranks at once and read back whole.
+/// Named arrays on disk (HDF5), written by all ranks at the same time and read completely
+/// by each.
 ///
-/// A rank writes its own rows of each array straight to their place in the file: HDF5 lays
-/// the file out and describes it, the rows go past it. Its own parallel writes leave the
-/// ranks waiting for each other for ever once the disk is full (1.10.8, Open MPI 4.1).
+/// HDF5 creates the file and allocates the arrays; then each rank writes its rows directly
+/// to their offset in the file, without HDF5. Parallel writes of HDF5 1.10.8 with Open MPI
+/// 4.1 hang when the disk is full.
 #pragma once
 
 #include "dem/collective_failure.h"
@@ -31,20 +32,20 @@ struct StateArray {
   }
 };
 
-/// What a file holds; while it is put together, the part of one rank.
+/// All arrays of a file; before it is written, the part of one rank.
 class State {
 public:
   State() = default;
-  /// @param rank that puts its part together
+  /// @param rank whose part it is
   explicit State(int rank) : is_first_(rank == 0) {}
 
-  /// My rows of an array that the ranks share: it will be theirs in the order of the ranks.
+  /// Rows of this rank; the array in the file has the rows of all ranks, in rank order.
   template <class T>
   void add(const std::string& name, std::vector<T> rows, std::size_t columns = 1)
   {
     arrays_[name] = {std::move(rows), columns};
   }
-  /// An array that every rank has alike.
+  /// An array that is the same on every rank.
   template <class T>
   void add_common(const std::string& name, std::vector<T> rows, std::size_t columns = 1)
   {
@@ -56,17 +57,17 @@ public:
     add_common(name, std::vector<char>(text.begin(), text.end()));
   }
 
-  /// The whole of an array.
-  /// @throws InputError when it is missing, or of another type or number of columns
+  /// A complete array.
+  /// @throws InputError when it is missing, or has another type or number of columns
   template <class T>
   const std::vector<T>& get(const std::string& name, std::size_t columns = 1) const
   {
     const StateArray& a = find(name);
     const auto* values = std::get_if<std::vector<T>>(&a.values);
-    if (!values || a.columns != columns) refuse(name, "is of another kind");
+    if (!values || a.columns != columns) refuse(name, "has another type or width");
     return *values;
   }
-  /// The same, of so many rows.
+  /// The same, with this number of rows.
   template <class T>
   const std::vector<T>& get_rows(const std::string& name, std::size_t rows,
                                  std::size_t columns = 1) const
@@ -83,7 +84,7 @@ public:
     return {chars.begin(), chars.end()};
   }
   bool has(const std::string& name) const { return arrays_.contains(name); }
-  /// Free the arrays whose names begin so.
+  /// Free the arrays whose names begin with `beginning`.
   void forget(const std::string& beginning)
   {
     std::erase_if(arrays_, [&](const auto& a) { return a.first.starts_with(beginning); });
@@ -99,20 +100,20 @@ private:
   std::map<std::string, StateArray> arrays_;
 };
 
-/// Replace `file` whole (dem/io/atomic_file.h); collective, each rank with arrays of the
-/// same names. What the ranks wrote is read back and compared (dem/io/shared_file.h), then
-/// sealed by a sum over all bytes (dem/io/seal.h).
+/// Replace `file` atomically (dem/io/atomic_file.h). Collective; each rank has arrays with
+/// the same names. What the ranks wrote is read back and compared (dem/io/shared_file.h),
+/// then sealed with a checksum of all bytes (dem/io/seal.h).
 /// @throws CollectiveFailure naming the file and the system's reason, or the rank that does
-///   not see it, or whose rows are lost; an earlier `file` stands
+///   not see the file or whose rows are lost; an earlier `file` is unchanged
 void write_state(const std::filesystem::path& file, const std::string& kind, int version,
                  const State& mine, const Communicator& comm);
 
 /// @param kind what the file must be, for example "checkpoint"
-/// @param sum if not null, becomes the sum that seals the file
+/// @param sum if not null, becomes the checksum of the file
 /// @throws DamagedFile (dem/io/seal.h), without the file's name in front, when it is
-///   truncated, changed, of another kind, or holds what no program of ours writes: an array
-///   that HDF5 cannot read, a number that is not finite; InputError when it is missing, may
-///   not be read or is of another version
+///   truncated, changed, or holds an array that HDF5 cannot read or a number that is not
+///   finite; InputError when it is missing, may not be read, or has another format or
+///   version
 State read_state(const std::filesystem::path& file, const std::string& kind, int version,
                  std::uint64_t* sum = nullptr);
 

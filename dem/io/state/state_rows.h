@@ -1,4 +1,4 @@
-/// Rows of a state's arrays: vectors as three columns, and rows in ascending order.
+/// Helpers for the rows of a state's arrays: vectors as three columns, ascending order.
 #pragma once
 
 #include "dem/io/state/state_file.h"
@@ -23,14 +23,15 @@ inline Vec3 vec_at(const std::vector<double>& from, std::size_t k)
   return {from[k], from[k + 1], from[k + 2]};
 }
 
-/// True for a history that is not all zero bits.
-inline bool says_something(const Vec3& f, double energy)
+/// True for a history that has a bit other than zero.
+inline bool is_nonzero(const Vec3& f, double energy)
 {
   const std::array<double, 4> all{f.x(), f.y(), f.z(), energy}, nothing{};
   return std::memcmp(all.data(), nothing.data(), sizeof all) != 0;
 }
 
-/// Numbers of rows in the ascending order of `key`, each key once.
+/// Row numbers in ascending order of `key`.
+/// @throws InputError when a key occurs twice
 template <class Key>
 std::vector<std::size_t> ascending(const std::string& name, std::size_t n, Key&& key)
 {
@@ -39,7 +40,7 @@ std::vector<std::size_t> ascending(const std::string& name, std::size_t n, Key&&
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   for (std::size_t k = 1; k < n; ++k)
-    if (!(key(order[k - 1]) < key(order[k]))) State::refuse(name, "names one twice");
+    if (!(key(order[k - 1]) < key(order[k]))) State::refuse(name, "has an entry twice");
   return order;
 }
 

@@ -1,5 +1,6 @@
-/// Mirrors, planes, walls and piles of a rock as arrays of a state: their places, and their
-/// histories with grains. Forces on them are exact sums (rock_state.h).
+/// Mirrors, planes, walls and piles of an assembly as arrays of a state: their positions,
+/// and the histories of their contacts and bonds. Forces on them are saved with the exact
+/// sums (assembly_state.h).
 #pragma once
 
 #include "dem/assembly/step.h"
@@ -7,15 +8,15 @@
 
 namespace mergel::dem {
 
-/// Each rank puts the histories of its grains.
-void put_walls(State& state, const Rock& rock);
+/// Each rank saves the histories of its own particles.
+void save_walls(State& state, const Assembly& assembly);
 
-/// @throws InputError when the state counts other mirrors, planes, walls or piles
-void check_walls(const State& state, const Rock& rock);
+/// @throws InputError when the state has another number of mirrors, planes, walls or piles
+void check_walls(const State& state, const Assembly& assembly);
 
-/// Whole, in ascending order. @pre check_walls(state, rock)
-/// @param n grains there are
-/// @throws InputError when the arrays do not fit each other or the rock
-void take_walls(const State& state, std::size_t n, Rock& rock);
+/// Load all histories, in ascending order. @pre check_walls(state, assembly)
+/// @param n number of particles
+/// @throws InputError when the arrays do not fit each other or the assembly
+void load_walls(const State& state, std::size_t n, Assembly& assembly);
 
 } // namespace mergel::dem

@@ -1,4 +1,4 @@
-#include "dem/element/driven_pair.h"
+#include "dem/element/controlled_pair.h"
 
 #include "dem/particles/integrate.h"
 
@@ -9,12 +9,12 @@ namespace mergel::dem {
 
 namespace {
 
-/// The step of the imposed motion takes a second; no law here depends on time.
+/// Time step of the imposed motion [s]; no law here depends on time.
 constexpr double dt = 1.0;
 
-Body resting_sphere(double x, double R, double S)
+ParticleState resting_particle(double x, double R, double S)
 {
-  Body b;
+  ParticleState b;
   b.x = {x, 0.0, 0.0};
   b.R = R;
   b.S = S;
@@ -24,31 +24,32 @@ Body resting_sphere(double x, double R, double S)
 
 } // namespace
 
-DrivenPair::DrivenPair(const DrivenPairSpec& spec)
+ControlledPair::ControlledPair(const ControlledPairSpec& spec)
     : material_(spec.material), gap_0_(spec.gap_0),
       shape_(bond_shape(section(spec.material.bond), std::min(spec.R_i, spec.R_j),
                         1.0 / (spec.R_i + spec.R_j)))
 {
-  particles_.add(resting_sphere(0.0, spec.R_i, spec.S));
-  particles_.add(resting_sphere(spec.R_i + spec.R_j + spec.gap_0, spec.R_j, spec.S));
+  particles_.add(resting_particle(0.0, spec.R_i, spec.S));
+  particles_.add(resting_particle(spec.R_i + spec.R_j + spec.gap_0, spec.R_j, spec.S));
   bonds_ = make_bonds(particles_, PeriodicCell{}, {{0, 1}});
 }
 
-void DrivenPair::move_to(const RelativeMotion& motion)
+void ControlledPair::move_to(const RelativeMotion& motion)
 {
-  Body &i = particles_.body[0], &j = particles_.body[1];
+  ParticleState &i = particles_.state[0], &j = particles_.state[1];
   const double du_n = motion.u_n - at_.u_n, du_s = motion.u_s - at_.u_s,
                dtheta = motion.theta - at_.theta;
   const auto loads = [this] {
-    const DrivenPairReading r = read();
+    const ControlledPairReading r = read();
     return std::array{r.N - r.f_n, r.V + r.f_s, r.M};
   };
   const auto before = loads();
 
   const double gap = gap_0_ + motion.u_n;
-  j.x.x() = i.R + j.R + gap; // from the start, not step by step: no drift
+  j.x.x() = i.R + j.R + gap; // from gap_0, not step by step: no drift
   j.v.x() = du_n / dt;
-  // Spins about z that part the contact points by du_s along y and turn j by dtheta against i:
+  // Spins about z that move the contact points apart by du_s along y and rotate j by dtheta
+  // relative to i:
   //   -(a_i w_i + a_j w_j) dt = du_s,   (w_j - w_i) dt = dtheta
   const double a_i = i.R + 0.5 * gap, a_j = j.R + 0.5 * gap;
   i.omega.z() = -(du_s + a_j * dtheta) / ((a_i + a_j) * dt);
@@ -68,20 +69,20 @@ void DrivenPair::move_to(const RelativeMotion& motion)
   for (std::size_t k = 0; k < 3; ++k) work_ += 0.5 * (before[k] + after[k]) * moved[k];
 }
 
-EffectiveLoads<double> DrivenPair::effective_loads() const
+EffectiveLoads<double> ControlledPair::effective_loads() const
 {
   const BondBlock& b = bonds_.blocks[0];
   if (b.intact[0] == 0.0) return {};
-  const Body &i = particles_.body[0], &j = particles_.body[1];
+  const ParticleState &i = particles_.state[0], &j = particles_.state[1];
   const double gap = (j.x - i.x).norm() - (i.R + j.R);
   return {shape_.k_n * (gap - b.gap_0[0] - b.u_p[0]), lane(b.V, 0), lane(b.M, 0), b.T[0]};
 }
 
-DrivenPairReading DrivenPair::read() const
+ControlledPairReading ControlledPair::read() const
 {
   const PeriodicCell cell;
   const BondReading bond = read_bond(bonds_, 0, particles_, cell, material_.bond);
-  const Vec3 f_s = shear_beside(bonds_, 0);
+  const Vec3 f_s = contact_shear_of(bonds_, 0);
   const ContactReading contact =
       read_contact(bonds_.pairs[0], f_s, particles_, cell, material_.contact);
   const double f = std::visit(
@@ -92,9 +93,9 @@ DrivenPairReading DrivenPair::read() const
           f,      u_p_,        bond.energy + contact.energy};
 }
 
-double DrivenPair::dissipated() const
+double ControlledPair::dissipated() const
 {
-  return losses_.plastic.value() + losses_.residue.value() + losses_.slip.value();
+  return losses_.plastic.value() + losses_.breakage_release.value() + losses_.slip.value();
 }
 
 } // namespace mergel::dem
