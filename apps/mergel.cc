@@ -45,21 +45,21 @@ void print_help(std::ostream& out)
 }
 
 const char* const help_on_checkpoints =
-    R"(  --restart DIR|FILE         go on in a results folder from its newest good checkpoint, or
-                             from this one; begin where there is none yet. CASE.prm may be
-                             left out
-  --walltime TIME            write a checkpoint and stop in time before (4h, 30 min, 4:00:00,
-                             1-12:00:00)
+    R"(  --restart DIR|FILE         continue a run from the newest good checkpoint of its
+                             results folder, or from this checkpoint; begin a run where
+                             there is none yet. CASE.prm may be left out
+  --walltime TIME            write a checkpoint and stop before this time is over (4h,
+                             30 min, 4:00:00, 1-12:00:00)
 
-SIGUSR1 asks for a checkpoint, SIGTERM for one and the end of the run.
+SIGUSR1 makes the run write a checkpoint. SIGTERM makes it write one and stop.
 
 )";
 const char* const help_without_checkpoints =
-    R"(  --restart DIR              begin again in the results folder of a run that was ended;
-                             CASE.prm may be left out
+    R"(  --restart DIR              begin again in the results folder of a run that did not
+                             finish; CASE.prm may be left out
 
-The job writes no checkpoints: SIGTERM ends it at once, --walltime is refused. Begun again it
-gives the same bits.
+The job writes no checkpoints: SIGTERM ends it at once, and --walltime is refused. A
+repeated run gives the same results, bit for bit.
 
 )";
 
@@ -72,12 +72,12 @@ void print_job_help(const Job& job, std::ostream& out)
     return;
   }
   out << " CASE.prm [options]\n"
-         "  --set \"Section/key=value\"  set a key over the case file; may be repeated\n"
+         "  --set \"Section/key=value\"  override a key of the case file; may be repeated\n"
          "  --output DIR               results folder; default results/<name of the case>\n"
          "  --overwrite                replace an earlier run in that folder\n";
   out << (job.writes_checkpoints ? help_on_checkpoints : help_without_checkpoints);
-  out << "Keys of CASE.prm, by section. Values carry their unit; any unit of the same "
-         "dimension\nwill do.\n\n";
+  out << "Keys of CASE.prm, by section. A value is written with its unit; any unit of its "
+         "dimension is\naccepted.\n\n";
   job.help(out);
 }
 
@@ -121,9 +121,9 @@ JobOptions parse_case(const Job& job, std::vector<std::string> arguments)
   if (!walltime.empty()) {
     require(job.writes_checkpoints,
             command + ": --walltime " + walltime + ": the job writes no checkpoints and " +
-                "could not stop in time; of those that do there is " +
+                "cannot stop in time; jobs that can are " +
                 joined(jobs_with_checkpoints(), ", ") +
-                ". Leave it out: the job begins again with --restart.");
+                ". Leave the option out; --restart begins the job again.");
     options.walltime = to_walltime(walltime);
   }
   if (options.output.empty() && !options.restart.empty())
@@ -147,7 +147,8 @@ int run(int argc, char** argv)
   }
   if (first.empty()) throw InputError("mergel: no job is given. See mergel --help.");
   if (first.starts_with('-'))
-    throw InputError("mergel: \"" + first + "\" stands before the job. See mergel --help.");
+    throw InputError("mergel: \"" + first +
+                     "\" comes before the name of the job. See mergel --help.");
 
   const Job& job = find_job(first);
   const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
@@ -156,7 +157,7 @@ int run(int argc, char** argv)
     if (job.reads_case())
       start = [run = std::get<RunCase>(job.run), options = parse_case(job, rest)] {
         JobOptions agreed = options;
-        std::string output = options.output.string(); // as the first rank sees the disk
+        std::string output = options.output.string(); // as found by the first rank
         share(output);
         agreed.output = output;
         return run(agreed);
@@ -177,7 +178,7 @@ int run(int argc, char** argv)
 int main(int argc, char** argv)
 {
   ignore_signals();
-  // Words to the user come from the first rank alone.
+  // Only the first rank prints to the user.
   if (launched_rank() > 0) std::cout.setstate(std::ios::badbit);
   return run_guarded([&] { return run(argc, argv); });
 }

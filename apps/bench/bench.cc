@@ -1,4 +1,5 @@
-/// mergel bench: what a step costs on this machine, part by part; tests/bench says of what.
+/// mergel bench: measures the cost of a step on this machine and of its parts. The
+/// workloads are described in tests/bench/README.md.
 #include "apps/bench/bench_checkpoint.h"
 #include "apps/bench/workloads.h"
 #include "apps/run/command_line.h"
@@ -29,7 +30,7 @@ namespace {
 /// What the command line says.
 struct BenchOptions {
   std::vector<Workload> workloads{Workload::bonded_block, Workload::frictional_packing};
-  WorkloadSpec spec; ///< its workload and size are set for each
+  WorkloadSpec spec; ///< workload and size are set by spec_of()
   long particles = 50000, steps = 1000, repeat = 5; // signed: a minus must not wrap around
   std::filesystem::path output;                     ///< may be empty
   std::filesystem::path block;                      ///< may be empty
@@ -52,18 +53,18 @@ void declare(CLI::App& app, BenchOptions& o)
         o.workloads = found->second;
       })
       ->expected(1);
-  app.add_option("--particles", o.particles, "spheres; default 50000");
+  app.add_option("--particles", o.particles, "number of particles; default 50000");
   app.add_option("--steps", o.steps, "timed steps; default 1000");
-  app.add_option("--repeat", o.repeat, "equal blocks of them, timed apart; default 5");
+  app.add_option("--repeat", o.repeat,
+                 "equal blocks of steps, timed separately; default 5");
   app.add_option("--seed", o.spec.seed, "of the workload; default 1");
   app.add_option("--yielding", o.spec.yielding,
-                 "share of the bonds of W1 that yield in a step, 0 to 0.5; default 0");
-  app.add_option("--output", o.output, "CSV file that gets a line a workload; may exist");
-  app.add_option(
-      "--write-block", o.block,
-      "text file that gets the spheres and bonds of W1, for another code; no run");
+                 "fraction of the bonds of W1 that yield in a step, 0 to 0.5; default 0");
+  app.add_option("--output", o.output, "CSV file to which a line per workload is added");
+  app.add_option("--write-block", o.block,
+                 "text file for the particles and bonds of W1, for another code; no run");
   app.add_option("--checkpoint", o.checkpoint,
-                 "file that gets a checkpoint of the first workload, timed; no run");
+                 "file for a checkpoint of the first workload, which is timed; no run");
 }
 
 WorkloadSpec spec_of(const BenchOptions& o, Workload w)
@@ -84,22 +85,22 @@ void check(const BenchOptions& o)
   for (const Workload w : o.workloads) spec_of(o, w).check();
 }
 
-/// Where the time of a step goes [ns], over the particles and the steps.
+/// Time per particle and step [ns].
 struct Costs {
-  double least = 0.0, median = 0.0, most = 0.0; ///< of the blocks
-  dem::StepTimes parts;                         ///< mean over all blocks
+  double smallest = 0.0, median = 0.0, most = 0.0; ///< of the blocks
+  dem::StepTimes parts;                            ///< mean over all blocks
   double mean = 0.0;
   double cpu = 0.0; ///< of all ranks together
 };
 
-/// What one workload showed.
+/// Results of one workload.
 struct Figures {
   Costs ns;
   std::size_t n_steps = 0, n_particles = 0, n_bonds = 0, n_candidates = 0, n_contacts = 0;
   std::size_t n_rebuilds = 0, n_broken = 0, n_yielded = 0;
   int n_ranks = 1;
-  double messages = 0.0, message_bytes = 0.0; ///< of the busiest rank, a step
-  double reductions = 0.0;                    ///< global ones, a step
+  double messages = 0.0, message_bytes = 0.0; ///< of the busiest rank, per step
+  double reductions = 0.0;                    ///< global reductions per step
   double bytes = 0.0;                         ///< of the containers, all ranks
   double peak_bytes = 0.0;                    ///< resident, of the process so far
   std::uint64_t checksum = 0;
@@ -111,13 +112,14 @@ double bytes_of(const std::vector<T>& v)
   return static_cast<double>(v.capacity() * sizeof(T));
 }
 
-/// Of everything that lives from step to step.
-double bytes_of(const dem::Rock& rock)
+/// Memory of all containers that are kept from step to step.
+double bytes_of(const dem::Assembly& assembly)
 {
-  const dem::Particles& p = rock.particles;
-  double bytes = bytes_of(p.body) + bytes_of(p.load) + bytes_of(p.id) + bytes_of(p.n_bonds);
-  bytes += bytes_of(rock.bonds.pairs) + bytes_of(rock.bonds.blocks);
-  bytes += bytes_of(rock.contacts.pairs) + bytes_of(rock.contacts.shear);
+  const dem::Particles& p = assembly.particles;
+  double bytes =
+      bytes_of(p.state) + bytes_of(p.load) + bytes_of(p.id) + bytes_of(p.n_bonds);
+  bytes += bytes_of(assembly.bonds.pairs) + bytes_of(assembly.bonds.blocks);
+  bytes += bytes_of(assembly.contacts.pairs) + bytes_of(assembly.contacts.shear);
   bytes += static_cast<double>(p.size() * sizeof(dem::Vec3)); // where the list was built
   return bytes;
 }
@@ -140,11 +142,11 @@ double cpu_seconds()
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-Costs run_blocks(WorkingRock& working, std::size_t steps_a_block, std::size_t n_blocks)
+Costs run_blocks(WorkingAssembly& working, std::size_t steps_a_block, std::size_t n_blocks)
 {
-  dem::Rock& rock = working.rock;
-  rock.times = {};
-  const double n = static_cast<double>(rock.particles.size() * steps_a_block);
+  dem::Assembly& assembly = working.assembly;
+  assembly.times = {};
+  const double n = static_cast<double>(assembly.particles.size() * steps_a_block);
   std::vector<double> blocks;
   const double cpu_before = cpu_seconds();
   for (std::size_t b = 0; b < n_blocks; ++b) {
@@ -155,14 +157,14 @@ Costs run_blocks(WorkingRock& working, std::size_t steps_a_block, std::size_t n_
   Costs c;
   for (const double ns : blocks) c.mean += ns / static_cast<double>(n_blocks);
   const double cpu_ns = 1e9 * (cpu_seconds() - cpu_before);
-  c.cpu = static_cast<double>(rock.comm.global_sum(static_cast<std::size_t>(cpu_ns))) /
+  c.cpu = static_cast<double>(assembly.comm.global_sum(static_cast<std::size_t>(cpu_ns))) /
           (n * static_cast<double>(n_blocks));
-  c.parts = rock.times;
+  c.parts = assembly.times;
   for (double* part : {&c.parts.motion, &c.parts.lists, &c.parts.bonds, &c.parts.contacts,
                        &c.parts.walls, &c.parts.exchange})
     *part *= 1e9 / (n * static_cast<double>(n_blocks));
   std::sort(blocks.begin(), blocks.end());
-  c.least = blocks.front();
+  c.smallest = blocks.front();
   c.most = blocks.back();
   c.median = 0.5 * (blocks[(n_blocks - 1) / 2] + blocks[n_blocks / 2]);
   return c;
@@ -170,46 +172,46 @@ Costs run_blocks(WorkingRock& working, std::size_t steps_a_block, std::size_t n_
 
 Figures measure(const WorkloadSpec& spec, std::size_t steps_a_block, std::size_t n_blocks)
 {
-  WorkingRock working = make_workload(spec);
-  dem::Rock& rock = working.rock;
+  WorkingAssembly working = make_workload(spec);
+  dem::Assembly& assembly = working.assembly;
   Figures f;
-  f.n_bonds = rock.bonds.size();
-  dem::share_out(rock, MPI_COMM_WORLD);
+  f.n_bonds = assembly.bonds.size();
+  dem::distribute(assembly, MPI_COMM_WORLD);
   constexpr int steps_to_warm_up = 20;
   for (int k = 0; k < steps_to_warm_up; ++k) working.step();
 
-  const std::size_t rebuilds = rock.list.n_builds(), broken = rock.losses.broken,
-                    yielded = rock.losses.yielded;
-  const dem::Ghosts::Traffic before = rock.ghosts.traffic();
-  const std::size_t reductions_before = rock.comm.n_reductions();
+  const std::size_t rebuilds = assembly.list.n_builds(), broken = assembly.losses.broken,
+                    yielded = assembly.losses.yielded;
+  const dem::Ghosts::Traffic before = assembly.ghosts.traffic();
+  const std::size_t reductions_before = assembly.comm.n_reductions();
   f.ns = run_blocks(working, steps_a_block, n_blocks);
   f.n_steps = steps_a_block * n_blocks;
-  f.n_particles = rock.particles.size();
-  const dem::Ghosts::Traffic after = rock.ghosts.traffic();
+  f.n_particles = assembly.particles.size();
+  const dem::Ghosts::Traffic after = assembly.ghosts.traffic();
   const auto a_step = [&](std::size_t now, std::size_t then) {
-    return rock.comm.global_max(static_cast<double>(now - then)) /
+    return assembly.comm.global_max(static_cast<double>(now - then)) /
            static_cast<double>(f.n_steps);
   };
   f.messages = a_step(after.messages, before.messages);
   f.message_bytes = a_step(after.bytes, before.bytes);
-  f.reductions = a_step(rock.comm.n_reductions(), reductions_before);
-  f.n_ranks = rock.comm.n_ranks();
-  f.n_rebuilds = rock.list.n_builds() - rebuilds;
-  f.n_broken = rock.comm.global_sum(rock.losses.broken - broken);
-  f.n_yielded = rock.comm.global_sum(rock.losses.yielded - yielded);
-  f.bytes =
-      static_cast<double>(rock.comm.global_sum(static_cast<std::size_t>(bytes_of(rock))));
+  f.reductions = a_step(assembly.comm.n_reductions(), reductions_before);
+  f.n_ranks = assembly.comm.n_ranks();
+  f.n_rebuilds = assembly.list.n_builds() - rebuilds;
+  f.n_broken = assembly.comm.global_sum(assembly.losses.broken - broken);
+  f.n_yielded = assembly.comm.global_sum(assembly.losses.yielded - yielded);
+  f.bytes = static_cast<double>(
+      assembly.comm.global_sum(static_cast<std::size_t>(bytes_of(assembly))));
   f.peak_bytes = static_cast<double>(
-      rock.comm.global_sum(static_cast<std::size_t>(peak_resident_bytes())));
-  const dem::Rock all = dem::whole(rock);
+      assembly.comm.global_sum(static_cast<std::size_t>(peak_resident_bytes())));
+  const dem::Assembly all = dem::gather(assembly);
   f.n_candidates = all.contacts.pairs.size();
   f.n_contacts = count_contacts(all);
   f.checksum = checksum(all.particles);
   return f;
 }
 
-/// Best rate of a[i] = b[i] + s c[i] on arrays far beyond any cache, three numbers an
-/// element [byte/s]. Source: McCalpin (1995), STREAM.
+/// Best rate of a[i] = b[i] + s c[i] on arrays much larger than any cache, three numbers
+/// per element [byte/s]. Source: McCalpin (1995), STREAM.
 double triad_rate()
 {
   constexpr std::size_t n = std::size_t{1} << 24;
@@ -226,7 +228,7 @@ double triad_rate()
   return best;
 }
 
-/// One figure: its name and unit, in the CSV file and on the screen.
+/// One number of the report: name and unit, in the CSV file and on the screen.
 struct Figure {
   const char* name;
   const char* unit;
@@ -244,7 +246,7 @@ double ratio(std::size_t a, std::size_t b)
   return ratio(static_cast<double>(a), static_cast<double>(b));
 }
 
-/// All figures that are numbers.
+/// All numbers of the report.
 std::vector<Figure> figures(const WorkloadSpec& spec, const Figures& f)
 {
   const bool is_bonded = spec.workload == Workload::bonded_block;
@@ -254,8 +256,8 @@ std::vector<Figure> figures(const WorkloadSpec& spec, const Figures& f)
   const auto share = [&](double ns) { return 100.0 * ratio(ns, f.ns.mean); };
   return {
       {"time per particle-step", "ns", f.ns.median, 1},
-      {"time per particle-step, least", "ns", f.ns.least, 1},
-      {"time per particle-step, most", "ns", f.ns.most, 1},
+      {"time per particle-step, smallest", "ns", f.ns.smallest, 1},
+      {"time per particle-step, largest", "ns", f.ns.most, 1},
       {is_bonded ? "time per bond-step" : "time per contact-step", "ns",
        ratio(f.ns.median, pairs), 1},
       {"motion", "%", share(part.motion), 1},
@@ -266,7 +268,7 @@ std::vector<Figure> figures(const WorkloadSpec& spec, const Figures& f)
       {"other ranks", "%", share(part.exchange), 1},
       {"processor time of all ranks per particle-step", "ns", f.ns.cpu, 1},
       {"ghost messages of the busiest rank in a step", "-", f.messages, 1},
-      {"bytes in them", "byte", f.message_bytes, 0},
+      {"bytes of these messages", "byte", f.message_bytes, 0},
       {"global reductions in a step", "-", f.reductions, 2},
       {"rebuilds", "-", static_cast<double>(f.n_rebuilds), 0},
       {"bonds per particle", "-", ratio(f.n_bonds, f.n_particles), 3},
@@ -305,7 +307,7 @@ void print(const WorkloadSpec& spec, const Figures& f)
             << dem::hexadecimal(f.checksum) << std::endl;
 }
 
-/// A line of the CSV file and the header over it.
+/// A line of the CSV file and its header.
 struct Line {
   std::string header, text;
 };
@@ -329,7 +331,7 @@ Line csv_line(const WorkloadSpec& spec, const Figures& f, double triad)
   return {header.str(), text.str()};
 }
 
-/// Refuse a file that cannot be made, before anything is measured.
+/// Refuse a file that cannot be written, before the measurement.
 /// @throws InputError
 void check_place(const char* option, const std::filesystem::path& file)
 {
@@ -344,10 +346,10 @@ void check_place(const char* option, const std::filesystem::path& file)
               std::filesystem::is_directory(folder, error),
           "mergel bench: " + std::string(option) + " " + file.string() + ": the folder " +
               folder.string() +
-              " is not there or cannot be written. Make it, or name another");
+              " does not exist or cannot be written. Create it, or name another");
 }
 
-/// The lines that the file has, without newlines; none if there is no file.
+/// The lines of the file, without newlines; none if there is no file.
 /// @throws InputError when it is not a table of this job
 std::vector<std::string> earlier_lines(const std::filesystem::path& file,
                                        const std::string& header)
@@ -357,7 +359,7 @@ std::vector<std::string> earlier_lines(const std::filesystem::path& file,
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   require(lines.empty() ? !std::filesystem::exists(file) : lines.front() == header,
           "mergel bench: --output " + file.string() +
-              ": exists and is not a table of mergel bench of this version. Give another "
+              ": exists and is not a table of mergel bench of this version. Choose another "
               "name");
   return lines;
 }
@@ -371,21 +373,21 @@ void append(const std::filesystem::path& file, const std::vector<Line>& lines)
   dem::replace_file(file, joined(all, "\n") + "\n");
 }
 
-/// Count of spheres and bonds and the step [s]; x, R, m, v of every sphere, SI; i and j of
-/// every bond, from 0.
-void write_block(const std::filesystem::path& file, const WorkingRock& working)
+/// Number of particles and bonds, and time step [s]; x, R, m, v of every particle, SI; i
+/// and j of every bond, from 0.
+void write_block(const std::filesystem::path& file, const WorkingAssembly& working)
 {
-  const dem::Rock& rock = working.rock;
+  const dem::Assembly& assembly = working.assembly;
   std::ostringstream out;
-  out << rock.particles.size() << ' ' << rock.bonds.size() << ' '
+  out << assembly.particles.size() << ' ' << assembly.bonds.size() << ' '
       << dem::shortest(working.dt) << '\n';
-  for (const dem::Body& b : rock.particles.body) {
+  for (const dem::ParticleState& b : assembly.particles.state) {
     for (const double value :
          {b.x.x(), b.x.y(), b.x.z(), b.R, b.m, b.v.x(), b.v.y(), b.v.z()})
       out << dem::shortest(value) << ' ';
     out << '\n';
   }
-  for (const dem::Pair& q : rock.bonds.pairs) out << q.i << ' ' << q.j << '\n';
+  for (const dem::Pair& q : assembly.bonds.pairs) out << q.i << ' ' << q.j << '\n';
   dem::replace_file(file, out.str());
 }
 

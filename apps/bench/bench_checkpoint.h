@@ -1,4 +1,4 @@
-/// What a checkpoint of a workload costs.
+/// The cost of a checkpoint of a workload.
 #pragma once
 
 #include "apps/bench/workloads.h"
@@ -7,8 +7,8 @@
 
 namespace mergel::apps {
 
-/// Write a checkpoint of the workload to `file` and read it back, three times, and print
-/// the seconds of each and the bytes a particle and pair. The file stays. Collective.
+/// Write a checkpoint of the workload to `file` and read it back, three times. Prints the
+/// time of each and the bytes per particle and pair. The file is kept. Collective.
 void measure_checkpoint(const WorkloadSpec& spec, const std::filesystem::path& file);
 
 } // namespace mergel::apps

@@ -19,14 +19,12 @@ using namespace dem;
 
 constexpr double unit = 0.1e-3;     ///< mean diameter [m]
 constexpr double g_a = 0.1 * unit;  ///< activation gap of W1 [m]; paper: 0.15 d00
-constexpr double skin = 0.2 * unit; ///< of the lists [m]; 0.3 d00 as in a run
+constexpr double skin = 0.2 * unit; ///< of the lists [m]; 0.3 d00, as in a run
 constexpr double rho = 2556.0;      ///< [kg/m^3]
-constexpr double safety = 0.7;      ///< of the time step
-constexpr double list_life = 250.0; ///< steps from one rebuild to the next
-constexpr double squeeze = 4e-6;    ///< strain a step of W1
-constexpr double slowing = 0.25;    ///< of the squeeze, twice, once the bonds yield
-constexpr double agitation = 2e-4;  ///< largest step of a particle of W2 over its unit
-constexpr std::size_t steps_between_checks = 100; ///< of the stable time step
+constexpr double list_life = 250.0; ///< steps between two rebuilds of the lists
+constexpr double squeeze = 4e-6;    ///< strain per step of W1
+constexpr double slowing = 0.25;    ///< factor of the strain rate, applied twice at yield
+constexpr double agitation = 2e-4;  ///< largest random motion in a step of W2, in units
 
 /// Purposes of the random numbers.
 enum Draw : std::uint64_t { place = 0, size = 3, push = 4 };
@@ -37,17 +35,17 @@ Vec3 random_vector(std::uint64_t seed, std::uint64_t id, std::uint64_t draw)
           uniform(seed, id, draw + 2)};
 }
 
-/// Spheres in a periodic cube.
+/// Particles in a periodic cube.
 struct Cube {
   Particles p;
   PeriodicCell cell;
 };
 
-/// Points at random, numbered along Morton's curve, in a cube that they fill to `fraction`
-/// with shells of g_a/2.
+/// Particles at random places, numbered along Morton's curve. With shells of `shell_gap`/2
+/// they fill `fraction` of the cube.
 Cube draw_cube(const WorkloadSpec& spec, double shell_gap, double fraction)
 {
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> order; // place on the curve, trial
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> order; // place on the curve, draw
   order.reserve(spec.n_particles);
   for (std::uint64_t k = 0; k < spec.n_particles; ++k) {
     const Vec3 u = random_vector(spec.seed, k, place);
@@ -59,7 +57,7 @@ Cube draw_cube(const WorkloadSpec& spec, double shell_gap, double fraction)
   Cube cube;
   double volume = 0.0;
   for (const auto& [code, k] : order) {
-    Body b;
+    ParticleState b;
     b.x = random_vector(spec.seed, k, place);
     b.R = 0.5 * unit * (0.8 + 0.4 * uniform(spec.seed, k, size));
     b.m = sphere_mass(b.R, rho);
@@ -67,12 +65,12 @@ Cube draw_cube(const WorkloadSpec& spec, double shell_gap, double fraction)
     cube.p.add(b);
   }
   const double edge = std::cbrt(volume / fraction);
-  for (Body& b : cube.p.body) b.x *= edge;
+  for (ParticleState& b : cube.p.state) b.x *= edge;
   cube.cell.size = Vec3::Constant(edge);
   return cube;
 }
 
-/// Margin of the lists while the spheres grow [m].
+/// Margin of the lists during growth [m].
 constexpr double margin = 0.15 * unit;
 
 Region region_of(const Cube& cube)
@@ -82,13 +80,13 @@ Region region_of(const Cube& cube)
 
 void unnoticed(double) {}
 
-/// Closest pairs, ascending.
+/// The `wanted` pairs with the smallest gaps, in ascending order of their indices.
 std::vector<Pair> closest_pairs(const Particles& p, std::size_t wanted)
 {
   const PeriodicCell open;
   std::vector<std::pair<double, Pair>> by_gap;
   for (const Pair& q : find_pairs(p, open, 0.6 * unit)) {
-    const Body &i = p.body[q.i], &j = p.body[q.j];
+    const ParticleState &i = p.state[q.i], &j = p.state[q.j];
     by_gap.emplace_back((j.x - i.x).norm() - (i.R + j.R), q);
   }
   std::sort(by_gap.begin(), by_gap.end());
@@ -99,7 +97,7 @@ std::vector<Pair> closest_pairs(const Particles& p, std::size_t wanted)
   return pairs;
 }
 
-LinearMaterial rock_contact(double gap)
+LinearMaterial particle_contact(double gap)
 {
   LinearMaterial c;
   c.E = 0.63e9;
@@ -109,8 +107,9 @@ LinearMaterial rock_contact(double gap)
   return c;
 }
 
-/// The paper's rock (Table 1, right) with twist, without softening.
-DamageBond lasting_bond(bool yields)
+/// Bond of the paper's rock (Table 1, right) with elastic twist, without softening. It
+/// yields at these strengths, or never.
+DamageBond non_softening_bond(bool yields)
 {
   DamageBond b;
   b.E = 22.5e9;
@@ -126,66 +125,66 @@ DamageBond lasting_bond(bool yields)
   return b;
 }
 
-void set_time_step(WorkingRock& working)
+void set_time_step(WorkingAssembly& working)
 {
-  add_forces(working.rock, 0.0);
-  working.dt = working.dt_before = stable_time_step(working.rock, safety);
+  add_forces(working.assembly, 0.0);
+  working.dt = working.dt_before = stable_time_step(working.assembly, default_safety);
 }
 
-/// The speed of flight: half the skin in the life of a list.
+/// Uniform velocity: half the skin in `list_life` steps.
 Vec3 flight(double dt)
 {
   return {0.5 * skin / (list_life * dt), 0.0, 0.0};
 }
 
-void start_squeezing(WorkingRock& working, double edge)
+void start_compression(WorkingAssembly& working, double edge)
 {
   constexpr double heavy = 1e6;
   const double end = 0.5 * edge - unit, rate = squeeze / working.dt;
-  for (Body& b : working.rock.particles.body) {
+  for (ParticleState& b : working.assembly.particles.state) {
     const double height = b.x.z() - 0.5 * edge;
     if (std::abs(height) > end) b.m *= heavy;
     b.v = flight(working.dt) - Vec3(0.0, 0.0, rate * height);
   }
 }
 
-/// Bonds that yielded in n steps, over the bonds and the steps.
-double share_yielding(WorkingRock& working, std::size_t n)
+/// Fraction of the bonds that yield in a step, mean of n steps [-].
+double fraction_yielding(WorkingAssembly& working, std::size_t n)
 {
-  PairLosses& losses = working.rock.losses;
+  PairLosses& losses = working.assembly.losses;
   const std::size_t before = losses.yielded;
   for (std::size_t k = 0; k < n; ++k) working.step();
   return static_cast<double>(losses.yielded - before) /
-         static_cast<double>(n * working.rock.bonds.size());
+         static_cast<double>(n * working.assembly.bonds.size());
 }
 
-/// Squeeze until 0.7 of this share yields, then more slowly, so that the share is met on
-/// average by the next thousand steps.
-void squeeze_until_yielding(WorkingRock& working, double share)
+/// Compress until 0.7 of this fraction yields in a step, then more slowly, so that the
+/// fraction is the mean of the next thousand steps.
+void compress_until_yielding(WorkingAssembly& working, double share)
 {
-  constexpr std::size_t most_steps = 10000;
+  constexpr std::size_t max_steps = 10000;
   constexpr int n_slower = 2;
   std::size_t n = 0;
   for (int slower = 0;; ++slower) {
-    const std::size_t at_a_time = slower == 0 ? 50 : 200; // waves pass in some 200 steps
+    const std::size_t at_a_time = slower == 0 ? 50 : 200; // a wave passes in some 200 steps
     for (double now = 0.0; now < 0.7 * share; n += at_a_time) {
-      if (n >= most_steps)
+      if (n >= max_steps)
         throw NumericalError("workload W1: only " + std::to_string(now) +
                              " of the bonds yield in a step after " + std::to_string(n) +
-                             " steps of squeezing, wanted " + std::to_string(share) +
+                             " steps of compression, required " + std::to_string(share) +
                              "; lower --yielding");
-      now = share_yielding(working, at_a_time);
+      now = fraction_yielding(working, at_a_time);
     }
     if (slower == n_slower) return;
     const Vec3 mean = flight(working.dt);
-    for (Body& b : working.rock.particles.body) { // so that the share lasts
+    for (ParticleState& b : working.assembly.particles.state) { // to keep the fraction
       b.v = mean + slowing * (b.v - mean);
       b.omega *= slowing;
     }
   }
 }
 
-WorkingRock make_block(const WorkloadSpec& spec)
+WorkingAssembly make_block(const WorkloadSpec& spec)
 {
   Cube cube = draw_cube(spec, g_a, 0.6);
   const Region region = region_of(cube);
@@ -193,26 +192,26 @@ WorkingRock make_block(const WorkloadSpec& spec)
   constexpr int most_sweeps = 1150;
   grow(growth, {0.6, 1e-3, most_sweeps}, unnoticed);
   const double edge = cube.cell.size.x();
-  for (Body& b : cube.p.body) // back into the cube before it is cut open
+  for (ParticleState& b : cube.p.state) // into the cube, whose faces become free
     for (int a = 0; a < 3; ++a) b.x[a] -= edge * std::floor(b.x[a] / edge);
 
-  WorkingRock working;
-  Rock& rock = working.rock;
-  rock.particles = std::move(cube.p);
-  rock.material = {lasting_bond(spec.yielding > 0.0), rock_contact(g_a)};
-  rock.motion.damping = 0.0;
-  rock.list = VerletList(g_a, skin);
+  WorkingAssembly working;
+  Assembly& assembly = working.assembly;
+  assembly.particles = std::move(cube.p);
+  assembly.material = {non_softening_bond(spec.yielding > 0.0), particle_contact(g_a)};
+  assembly.motion.damping = 0.0;
+  assembly.list = VerletList(g_a, skin);
   const double wanted = bonds_per_particle * static_cast<double>(spec.n_particles);
-  rock.bonds =
-      make_bonds(rock.particles, rock.cell,
-                 closest_pairs(rock.particles, static_cast<std::size_t>(wanted + 0.5)));
+  assembly.bonds =
+      make_bonds(assembly.particles, assembly.cell,
+                 closest_pairs(assembly.particles, static_cast<std::size_t>(wanted + 0.5)));
   set_time_step(working);
-  start_squeezing(working, edge);
-  if (spec.yielding > 0.0) squeeze_until_yielding(working, spec.yielding);
+  start_compression(working, edge);
+  if (spec.yielding > 0.0) compress_until_yielding(working, spec.yielding);
   return working;
 }
 
-/// Swell the spheres in small steps until they have so many contacts.
+/// Enlarge the particles in small steps until there are so many contacts per particle.
 void press(Cube& cube, Growth& growth, double contacts)
 {
   constexpr double swell = 1.001;
@@ -221,16 +220,16 @@ void press(Cube& cube, Growth& growth, double contacts)
   for (int n = 0; n < most_swells; ++n) {
     for (int k = 0; k < sweeps; ++k) growth.sweep(1.0);
     if (static_cast<double>(growth.n_overlaps()) >= wanted) return;
-    for (Body& b : cube.p.body) {
+    for (ParticleState& b : cube.p.state) {
       b.R *= swell;
       b.m = sphere_mass(b.R, rho);
     }
   }
-  throw NumericalError("workload W2: the spheres do not reach " + std::to_string(contacts) +
-                       " contacts each");
+  throw NumericalError("workload W2: the particles do not reach " +
+                       std::to_string(contacts) + " contacts per particle");
 }
 
-WorkingRock make_packing(const WorkloadSpec& spec)
+WorkingAssembly make_packing(const WorkloadSpec& spec)
 {
   Cube cube = draw_cube(spec, 0.0, 0.64);
   const Region region = region_of(cube);
@@ -239,21 +238,21 @@ WorkingRock make_packing(const WorkloadSpec& spec)
   grow(growth, {0.6, 0.0, sweeps_of_growth}, unnoticed);
   press(cube, growth, contacts_per_particle);
 
-  WorkingRock working;
-  Rock& rock = working.rock;
-  rock.particles = std::move(cube.p);
-  rock.cell = cube.cell;
-  rock.material = {lasting_bond(false), rock_contact(0.0)};
-  rock.motion.free_rotation = true;
-  rock.list = VerletList(0.0, skin);
+  WorkingAssembly working;
+  Assembly& assembly = working.assembly;
+  assembly.particles = std::move(cube.p);
+  assembly.cell = cube.cell;
+  assembly.material = {non_softening_bond(false), particle_contact(0.0)};
+  assembly.motion.free_rotation = true;
+  assembly.list = VerletList(0.0, skin);
   set_time_step(working);
   constexpr int steps_to_settle = 300;
   for (int k = 0; k < steps_to_settle; ++k) working.step();
 
-  rock.motion.damping = 0.0;
-  for (std::size_t i = 0; i < rock.particles.size(); ++i) {
+  assembly.motion.damping = 0.0;
+  for (std::size_t i = 0; i < assembly.particles.size(); ++i) {
     const Vec3 u = random_vector(spec.seed, i, push);
-    rock.particles.body[i].v =
+    assembly.particles.state[i].v =
         flight(working.dt) + agitation * unit / working.dt * (2.0 * u - Vec3::Ones());
   }
   return working;
@@ -273,27 +272,27 @@ void WorkloadSpec::check() const
           "mergel bench: --yielding: only W1 has bonds. Add --workload W1");
 }
 
-void WorkingRock::step()
+void WorkingAssembly::step()
 {
-  if (n_steps % steps_between_checks == 0)
-    dt = std::min(dt, stable_time_step(rock, safety));
-  advance(rock, dt_before, dt, [](double) {});
+  if (n_steps % steps_between_step_checks == 0)
+    dt = std::min(dt, stable_time_step(assembly, default_safety));
+  advance(assembly, dt_before, dt, [](double) {});
   dt_before = dt;
   ++n_steps;
 }
 
-WorkingRock make_workload(const WorkloadSpec& spec)
+WorkingAssembly make_workload(const WorkloadSpec& spec)
 {
   spec.check();
   return spec.workload == Workload::bonded_block ? make_block(spec) : make_packing(spec);
 }
 
-std::size_t count_contacts(const Rock& rock)
+std::size_t count_contacts(const Assembly& assembly)
 {
   return static_cast<std::size_t>(std::count_if(
-      rock.contacts.pairs.begin(), rock.contacts.pairs.end(), [&](const Pair& q) {
-        return read_contact(q, Vec3::Zero(), rock.particles, rock.cell,
-                            rock.material.contact)
+      assembly.contacts.pairs.begin(), assembly.contacts.pairs.end(), [&](const Pair& q) {
+        return read_contact(q, Vec3::Zero(), assembly.particles, assembly.cell,
+                            assembly.material.contact)
                    .f_n > 0.0;
       }));
 }
@@ -312,9 +311,9 @@ std::uint64_t checksum(const Particles& p)
     }
   };
   for (const std::size_t i : order) {
-    add(p.body[i].x);
-    add(p.body[i].v);
-    add(p.body[i].omega);
+    add(p.state[i].x);
+    add(p.state[i].v);
+    add(p.state[i].omega);
   }
   return hash;
 }

@@ -1,10 +1,10 @@
-/// Rocks made from a seed alone, on which the cost of a step is measured; tests/bench says
-/// what they stand for.
+/// Assemblies made from a seed alone, to measure the cost of a step. They are described in
+/// tests/bench/README.md.
 ///
-/// Both have N spheres with diameters uniform in [0.8, 1.2] units, a unit being the mean
-/// grain of the paper's rock, numbered along a space-filling curve. Both fly along x, so
-/// fast that the lists go stale every 250 steps, as under a pile: they are otherwise at rest
-/// or nearly so, and the flight changes no force.
+/// Both have N particles with diameters uniform in [0.8, 1.2] units, numbered along a
+/// space-filling curve. A unit is the mean grain size of the paper's rock. Both move along
+/// x with a uniform velocity at which the neighbour lists are rebuilt every 250 steps, as
+/// under a pile. Otherwise they are nearly at rest. The uniform velocity changes no force.
 #pragma once
 
 #include "dem/assembly/step.h"
@@ -14,9 +14,10 @@
 namespace mergel::apps {
 
 enum class Workload {
-  /// W1: a block with 2.45 bonds a particle and free faces, compressed slowly along z.
+  /// W1: a block with 2.45 bonds per particle and free faces, compressed slowly along z.
   bonded_block,
-  /// W2: no bonds; 3.4 frictional contacts a particle in a periodic cube, slightly agitated.
+  /// W2: no bonds; 3.4 frictional contacts per particle in a periodic cube, small
+  /// velocities.
   frictional_packing
 };
 
@@ -24,48 +25,49 @@ struct WorkloadSpec {
   Workload workload = Workload::bonded_block;
   std::size_t n_particles = 50000;
   std::uint64_t seed = 1;
-  /// Share of the bonds of W1 that yield in a step [-]; 0: their strength is out of reach.
+  /// Fraction of the bonds of W1 that yield in a step [-]; 0: their strength is not
+  /// reached.
   double yielding = 0.0;
 
   /// @throws InputError when out of range
   void check() const;
 };
 
-/// Bonds of a particle in W1, and contacts of a particle that W2 aims at.
+/// Bonds per particle of W1, and target of the contacts per particle of W2 [-].
 inline constexpr double bonds_per_particle = 2.45, contacts_per_particle = 3.4;
 
-/// A rock that moves by itself.
-struct WorkingRock {
-  dem::Rock rock;
-  double dt = 0.0;        ///< present step [s]; only ever lowered
-  double dt_before = 0.0; ///< the step before [s]
+/// An assembly with its time step.
+struct WorkingAssembly {
+  dem::Assembly assembly;
+  double dt = 0.0;        ///< time step [s]; never grows
+  double dt_before = 0.0; ///< previous time step [s]
   std::size_t n_steps = 0;
 
-  /// One step as a run takes it, the stable step looked at every hundredth time.
+  /// One step, as in a run; the stable time step is computed every 100 steps.
   void step();
 };
 
-/// The same spec gives the same bits.
+/// Make a workload. The same spec gives the same bits.
 ///
-/// W1, overdamped: spheres in a periodic cube grow until they fill 0.6 of it with their
-/// far-field shells, the cube is cut open at its faces, and the closest pairs are bonded. The
-/// particles of its two ends are so heavy that they keep their speed: platens that hold the
-/// block by its bonds. It is squeezed from the start in the same ratio everywhere, so that no
-/// wave runs. With `yielding` it has the strengths of the paper's rock but never softens; it
-/// is squeezed until about that share of the bonds yields in a step, then more slowly, so
-/// that the share lasts for a thousand steps.
+/// W1: particles in a periodic cube grow without inertia until they fill 0.6 of it with
+/// their far-field shells. The cube then becomes a block with free faces, and the closest
+/// pairs are bonded. The particles at its two ends are so heavy that they keep their
+/// velocity and act as platens. The initial velocities are those of a uniform strain rate,
+/// so that no wave starts. With `yielding` the bonds have the strengths of the paper's rock
+/// without softening; the block is compressed until about that fraction of the bonds yields
+/// in a step, then more slowly, so that the fraction holds for a thousand steps.
 ///
-/// W2, overdamped: spheres grow until each has 3.4 contacts, then settle with friction, and
-/// each gets a small velocity of its own.
-/// @throws InputError as spec.check(); NumericalError when the share or the number of
+/// W2: particles grow without inertia until there are 3.4 contacts per particle, then
+/// settle with friction. Each particle then gets a small random velocity.
+/// @throws InputError as spec.check(); NumericalError when the fraction or the number of
 ///   contacts is not reached
-WorkingRock make_workload(const WorkloadSpec& spec);
+WorkingAssembly make_workload(const WorkloadSpec& spec);
 
-/// Contacts that press, those beside bonds left out.
-std::size_t count_contacts(const dem::Rock& rock);
+/// Number of loaded contacts, without those beside bonds.
+std::size_t count_contacts(const dem::Assembly& assembly);
 
-/// 64 bits of FNV-1a over x, v, omega of all particles in order of their id. Source: Fowler,
-/// Noll, Vo (1991).
+/// 64 bits of FNV-1a over x, v, omega of all particles in order of their id. Source:
+/// Fowler, Noll, Vo (1991).
 std::uint64_t checksum(const dem::Particles& p);
 
 } // namespace mergel::apps

@@ -1,10 +1,10 @@
-/// mergel bond: one bonded pair of spheres along any path of u_n, u_s and theta.
+/// mergel bond: one bonded pair of particles along any path of u_n, u_s and theta.
 #include "apps/case/material_keys.h"
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
 #include "apps/run/restart.h"
-#include "dem/element/driven_pair.h"
+#include "dem/element/controlled_pair.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"
 #include "dem/io/table.h"
@@ -19,25 +19,25 @@ namespace mergel::apps {
 
 namespace {
 
-/// Motions beyond any use: a slip of units.
+/// Larger motions are taken for a mistake in the units.
 constexpr double most_radii = 1e3, most_radians = 1e3;
 
 struct BondCase {
-  double radius = unset;     ///< of the first sphere [m]
-  double radius_ratio = 1.0; ///< of the second sphere to the first
+  double radius = unset;     ///< of the first particle [m]
+  double radius_ratio = 1.0; ///< of the second particle to the first [-]
   double S = 1.0;            ///< upscaling ratio [-]
-  double gap = 0.0;          ///< at which they are bonded [m]
+  double gap = 0.0;          ///< between the surfaces when bonded [m]
   BondKeys bond;
   dem::LinearMaterial contact;
   std::string mode = "path";
   std::filesystem::path path;
-  dem::RelativeMotion reach{unset, unset, unset}; ///< at the end of a named loading
-  int steps_per_leg = 1000;
+  dem::RelativeMotion end_motion{unset, unset, unset}; ///< at the end of a named loading
+  int steps_per_stage = 1000;
 
   double smaller_radius() const { return radius * std::min(1.0, radius_ratio); }
 };
 
-/// The loadings of the paper's Fig. 3 by name; which motions each has, and which way u_n goes.
+/// The named loadings of the paper's Fig. 3: the motions of each, and the sign of u_n.
 struct Loading {
   const char* name;
   double normal; ///< 1 tension, -1 compression, 0 none
@@ -66,16 +66,18 @@ std::vector<std::string> names_with(Has&& has)
   return names;
 }
 
-void declare_spheres(CaseFile& file, BondCase& c)
+void declare_particles(CaseFile& file, BondCase& c)
 {
-  const auto section = file.section("Spheres");
-  file.quantity("radius", c.radius, "m", positive, "Of the first sphere.", "mm");
+  file.former_section("Spheres", "Particles");
+  const auto section = file.section("Particles");
+  file.quantity("radius", c.radius, "m", positive, "Of the first particle.", "mm");
   file.number("radius ratio", c.radius_ratio, between(1e-3, 1e3),
-              "Radius of the second sphere over that of the first.");
+              "Radius of the second particle over that of the first.");
   file.number("upscaling ratio", c.S, positive,
-              "S of both: softening displacement and activation gap scale with it, Eq. 8.");
+              "S of both particles: softening displacement and activation gap scale with "
+              "it, Eq. 8.");
   file.quantity("initial gap", c.gap, "m", non_negative,
-                "Between the surfaces when they are bonded; not scaled with S.", "mm");
+                "Gap between the surfaces when they are bonded; not scaled with S.", "mm");
 }
 
 void declare_loading(CaseFile& file, BondCase& c)
@@ -83,46 +85,46 @@ void declare_loading(CaseFile& file, BondCase& c)
   const auto section = file.section("Loading");
   std::vector<std::string> modes{"path"};
   for (const Loading& l : loadings) modes.emplace_back(l.name);
-  file.choice(
-      "mode", c.mode, modes,
-      "Along the corners of a file, or in proportion to the motions below (Fig. 3).");
+  file.choice("mode", c.mode, modes,
+              "Corner points of a file, or the motions below in proportion (Fig. 3).");
   {
     const auto only = file.only_if("mode", {"path"});
     file.path("path", c.path,
-              "CSV file of corner points after the start at rest; its first line is "
+              "CSV file of corner points, without the start at zero; its first line is "
               "u_n [m],u_s [m],theta [rad].",
               Default::none);
   }
   {
     const auto only =
         file.only_if("mode", names_with([](const Loading& l) { return l.normal != 0.0; }));
-    file.quantity("normal displacement", c.reach.u_n, "m", positive,
-                  "Reached at the end; apart in tension, together in compression.", "mm");
+    file.quantity("normal displacement", c.end_motion.u_n, "m", positive,
+                  "At the end; apart in tension, together in compression.", "mm");
   }
   {
     const auto only =
         file.only_if("mode", names_with([](const Loading& l) { return l.shear; }));
-    file.quantity("shear displacement", c.reach.u_s, "m", positive, "Reached at the end.",
+    file.quantity("shear displacement", c.end_motion.u_s, "m", positive, "At the end.",
                   "mm");
   }
   {
     const auto only =
         file.only_if("mode", names_with([](const Loading& l) { return l.bending; }));
-    file.quantity("rotation", c.reach.theta, "rad", positive, "Reached at the end.");
+    file.quantity("rotation", c.end_motion.theta, "rad", positive, "At the end.");
   }
-  file.integer("steps per leg", c.steps_per_leg, between(1.0, 1e7),
-               "Equal steps from corner to corner; one line of history.csv each.");
+  file.former_name("steps per leg", "steps per stage");
+  file.integer("steps per stage", c.steps_per_stage, between(1.0, 1e7),
+               "Equal steps between two corners; one line of history.csv each.");
 }
 
 void declare(CaseFile& file, BondCase& c)
 {
-  declare_spheres(file, c);
+  declare_particles(file, c);
   declare(file, c.bond);
   declare(file, c.contact);
   declare_loading(file, c);
 }
 
-/// What is wrong with a corner, or "".
+/// Message on an invalid corner, or "".
 std::string fault(const BondCase& c, const dem::RelativeMotion& at)
 {
   const double r = c.smaller_radius();
@@ -130,8 +132,8 @@ std::string fault(const BondCase& c, const dem::RelativeMotion& at)
     return "every motion must be a finite number";
   if (c.gap + at.u_n < -0.5 * r)
     return "u_n = " + dem::shortest(at.u_n) +
-           " m makes the spheres overlap by more than half of the smaller radius: must be "
-           "at least " +
+           " m makes the particles overlap by more than half of the smaller radius: must "
+           "be at least " +
            dem::shortest(-0.5 * r - c.gap) + " m";
   if (std::abs(at.u_n) > most_radii * r || std::abs(at.u_s) > most_radii * r)
     return "a displacement exceeds 1000 radii: is its unit m?";
@@ -139,16 +141,16 @@ std::string fault(const BondCase& c, const dem::RelativeMotion& at)
   return "";
 }
 
-/// Corner points of the path, the start at rest left out.
+/// Corner points of the path, without the start at zero.
 std::vector<dem::RelativeMotion> corners(const CaseFile& file, const BondCase& c)
 {
   std::vector<dem::RelativeMotion> path;
   if (c.mode != "path") {
     const Loading& l = *std::find_if(std::begin(loadings), std::end(loadings),
                                      [&](const Loading& o) { return c.mode == o.name; });
-    const dem::RelativeMotion end{l.normal != 0.0 ? l.normal * c.reach.u_n : 0.0,
-                                  l.shear ? c.reach.u_s : 0.0,
-                                  l.bending ? c.reach.theta : 0.0};
+    const dem::RelativeMotion end{l.normal != 0.0 ? l.normal * c.end_motion.u_n : 0.0,
+                                  l.shear ? c.end_motion.u_s : 0.0,
+                                  l.bending ? c.end_motion.theta : 0.0};
     if (const std::string wrong = fault(c, end); !wrong.empty())
       file.refuse("Loading",
                   l.normal != 0.0 ? "normal displacement"
@@ -176,19 +178,19 @@ std::vector<dem::RelativeMotion> corners(const CaseFile& file, const BondCase& c
   if (first.u_n == 0.0 && first.u_s == 0.0 && first.theta == 0.0) path.erase(path.begin());
   if (path.empty())
     file.refuse("Loading", "path",
-                c.path.string() + ": the only corner is the start itself: nothing moves");
+                c.path.string() + ": the only corner is the start itself: no motion");
   return path;
 }
 
-/// history.csv and what the closing summary says.
+/// history.csv and the largest values for the summary.
 class Record {
 public:
   explicit Record(const std::filesystem::path& file) : history_(file, columns) {}
 
-  void add(const dem::DrivenPair& pair)
+  void add(const dem::ControlledPair& pair)
   {
     const dem::RelativeMotion& u = pair.motion();
-    const dem::DrivenPairReading r = pair.read();
+    const dem::ControlledPairReading r = pair.read();
     history_.add({u.u_n, u.u_s, u.theta, r.N, r.V, r.M, r.D, r.f_n, r.f, r.u_p.u_n,
                   r.u_p.u_s, r.u_p.theta, r.f_s, pair.work(), r.stored, pair.dissipated()});
     tension = std::max(tension, r.N);
@@ -201,7 +203,7 @@ public:
     energy_error_ = std::max(energy_error_, error);
     ++n_records;
   }
-  /// Largest gap between work and its uses, as a share of the largest of these [-].
+  /// Largest |work - stored - dissipated| over the largest stored or dissipated energy [-].
   double energy_error() const
   {
     return energy_scale_ > 0.0 ? energy_error_ / energy_scale_ : 0.0;
@@ -223,7 +225,7 @@ private:
 };
 
 void write_summary(const std::filesystem::path& file, const dem::BondLaw& law,
-                   const Record& record, const dem::DrivenPair& pair)
+                   const Record& record, const dem::ControlledPair& pair)
 {
   const dem::SingleStrengths strong = std::visit(
       [&](const auto& bond) { return single_strengths(bond, pair.shape()); }, law);
@@ -258,7 +260,7 @@ void print_summary(const std::filesystem::path& folder, const Record& record)
             << record.compression << " N, shear " << record.shear << " N, moment "
             << record.moment << " N m; damage at the end " << record.D
             << (record.D == 1.0 ? ", broken" : "")
-            << "\nenergy: work less stored and dissipated is at most "
+            << "\nenergy error: work minus stored and dissipated energy is at most "
             << 100.0 * record.energy_error() << " % of these, in " << record.n_records - 1
             << " steps\nresults: " << folder.string()
             << " (history.csv, summary.json); pictures: mergel-view " << folder.string()
@@ -277,8 +279,8 @@ void help_bond(std::ostream& out)
 
 namespace {
 
-/// The whole job: one pair is work for one rank.
-void drive_bond(const JobOptions& options)
+/// The whole job, on one rank: it has a single pair.
+void load_bond(const JobOptions& options)
 {
   CaseFile file;
   BondCase c;
@@ -291,13 +293,14 @@ void drive_bond(const JobOptions& options)
   file.write_resolved(folder.path() / "resolved.prm");
 
   const dem::BondLaw law = c.bond.chosen();
-  dem::DrivenPair pair({c.radius, c.radius * c.radius_ratio, c.S, c.gap, {law, c.contact}});
+  dem::ControlledPair pair(
+      {c.radius, c.radius * c.radius_ratio, c.S, c.gap, {law, c.contact}});
   Record record(folder.path() / "history.csv");
   record.add(pair);
   for (const dem::RelativeMotion& corner : path) {
     const dem::RelativeMotion from = pair.motion();
-    for (int k = 1; k <= c.steps_per_leg; ++k) {
-      const double t = static_cast<double>(k) / c.steps_per_leg;
+    for (int k = 1; k <= c.steps_per_stage; ++k) {
+      const double t = static_cast<double>(k) / c.steps_per_stage;
       const auto between = [t](double a, double b) {
         return t < 1.0 ? a + t * (b - a) : b;
       };
@@ -314,7 +317,7 @@ void drive_bond(const JobOptions& options)
 
 int run_bond(const JobOptions& options)
 {
-  on_first_rank([&] { drive_bond(options); });
+  on_first_rank([&] { load_bond(options); });
   return 0;
 }
 

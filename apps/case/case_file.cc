@@ -1,4 +1,5 @@
-/// Declaring the keys of a case: what each kind allows, and how its text sets a variable.
+/// Declaring the keys of a case: the allowed values of each kind, and the parser of its
+/// text.
 #include "apps/case/case_file.h"
 
 #include "apps/case/case_keys.h"
@@ -15,7 +16,7 @@ namespace mergel::apps {
 
 namespace {
 
-/// A violated range, and what helps: the range's own remedy, or what the key means.
+/// Message on a violated range: the range, and its remedy or else the sentence of the key.
 std::string violation(const Range& range, const std::string& range_text,
                       const std::string& sentence)
 {
@@ -69,6 +70,16 @@ CaseFile::Condition CaseFile::only_if(const std::string& choice,
   impl_->open_choice = choice;
   impl_->open_values = values;
   return Condition(*this);
+}
+
+void CaseFile::former_name(const std::string& former, const std::string& key)
+{
+  impl_->former_names[{impl_->open_section, former}] = key;
+}
+
+void CaseFile::former_section(const std::string& former, const std::string& section)
+{
+  impl_->former_sections[former] = section;
 }
 
 void CaseFile::quantity(const std::string& key, double& target, const std::string& si_unit,

@@ -8,7 +8,7 @@
 ///     file.read("pile.prm", {"Bond/effective modulus=0.63 GPa"});
 ///
 /// The format is deal.II's ParameterHandler's (`subsection Bond`, `set key = value`, `end`,
-/// `#` for comments, `\` to go on in the next line), one file, sections not nested.
+/// `#` for comments, `\` to continue in the next line), one file, sections not nested.
 #pragma once
 
 #include "apps/case/range.h"
@@ -26,10 +26,10 @@
 
 namespace mergel::apps {
 
-/// Whether a key may be left out of the case. Quantities and numbers say it by their
-/// default: NaN is none.
+/// Whether a key may be left out of the case. A quantity or number has no default when its
+/// variable is NaN.
 enum class Default {
-  present, ///< the variable's value at declaration stands
+  present, ///< the variable's value at declaration
   none     ///< the user must give the key
 };
 
@@ -44,7 +44,7 @@ public:
   CaseFile(const CaseFile&) = delete;
   CaseFile& operator=(const CaseFile&) = delete;
 
-  /// While it lives, keys are declared in this section.
+  /// While it lives, declared keys belong to this section.
   class [[nodiscard]] Section {
   public:
     ~Section();
@@ -60,9 +60,9 @@ public:
   /// Open a section, new or declared before; one at a time.
   Section section(const std::string& name);
 
-  /// While it lives, the keys declared exist only where a choice of the same section has one
-  /// of these values; anywhere else they are refused. Two conditions that exclude each other
-  /// may declare keys of the same name.
+  /// While it lives, declared keys exist only where a choice of the same section has one of
+  /// these values; elsewhere they are refused. Two conditions that exclude each other may
+  /// declare keys of the same name.
   class [[nodiscard]] Condition {
   public:
     ~Condition();
@@ -77,6 +77,13 @@ public:
 
   /// @param choice a choice declared before in the open section; @param values some of it
   Condition only_if(const std::string& choice, const std::vector<std::string>& values);
+
+  /// The former name of a key of the open section: a case that gives it is refused with the
+  /// present name.
+  void former_name(const std::string& former, const std::string& key);
+
+  /// The same for a section.
+  void former_section(const std::string& former, const std::string& section);
 
   /// A number with a unit. `target` is in `si_unit`, a coherent SI unit ("Pa", "m", "rad"),
   /// and so are the bounds of `range`; help and resolved case use `shown_unit` ("mm").
@@ -129,7 +136,7 @@ public:
               const std::vector<std::string>& options, const std::string& sentence,
               Default standard = Default::present);
 
-  /// true or false; yes and no are taken too.
+  /// true or false; yes and no are accepted too.
   void flag(const std::string& key, bool& target, const std::string& sentence);
 
   /// One line of text without '#' or a last '\'; may be empty unless it must be given.
@@ -138,23 +145,23 @@ public:
 
   /// A file or folder; may be empty unless it must be given. A relative path in the case
   /// file starts at the case file's folder, one from --set or a default at the working
-  /// directory; the target is absolute. Whether it exists is the caller's to check.
+  /// directory; the target is absolute. The caller checks whether it exists.
   void path(const std::string& key, std::filesystem::path& target,
             const std::string& sentence, Default standard = Default::present);
 
   /// Read the file, then the overrides ("Section/key=value", from --set), and set every
   /// bound variable. Nothing is written anywhere.
-  /// @throws InputError at the first thing wrong; bound variables are then unspecified
+  /// @throws InputError at the first error; bound variables are then unspecified
   void read(const std::filesystem::path& path,
             const std::vector<std::string>& overrides = {});
 
   /// The same from the text of a resolved case instead of a file.
-  /// @param name what messages call it
+  /// @param name of the text in messages
   void read_text(const std::string& text, const std::string& name,
                  const std::vector<std::string>& overrides = {});
 
   /// Where the value of a key comes from, for checks that span several keys:
-  /// "pile.prm:14: Pile/diameter", "--set Pile/diameter", or, when the default stands,
+  /// "pile.prm:14: Pile/diameter", "--set Pile/diameter", or, for the default,
   /// "pile.prm: Pile/diameter". @pre read() was called
   std::string where(const std::string& section, const std::string& key) const;
 
@@ -163,7 +170,7 @@ public:
   [[noreturn]] void refuse(const std::string& section, const std::string& key,
                            const std::string& message) const;
 
-  /// Let the resolved case hold this value of a text that was found elsewhere.
+  /// Set the value of a text key in the resolved case, where it was found by the program.
   /// @pre read() was called
   void resolve(const std::string& section, const std::string& key,
                const std::string& value);
@@ -173,7 +180,8 @@ public:
   bool is_given(const std::string& section, const std::string& key) const;
 
   /// Write the complete case as it was read, defaults included: a case file that sets every
-  /// variable to the same bits. The same case gives the same text. Replaces the file whole.
+  /// variable to the same bits. The same case gives the same text. An existing file is
+  /// replaced.
   /// @pre read() was called; @throws NumericalError if it cannot be written
   void write_resolved(const std::filesystem::path& path) const;
 

@@ -88,6 +88,9 @@ std::vector<std::string> CaseFile::Impl::names_in(const std::string& section) co
 void CaseFile::Impl::refuse_section(const std::string& place,
                                     const std::string& section) const
 {
+  if (const auto now = former_sections.find(section); now != former_sections.end())
+    throw InputError(place + "the section \"" + section + "\" is now \"" + now->second +
+                     "\". Rename it.");
   const std::string meant = nearest(section, sections);
   throw InputError(place + "unknown section \"" + section + "\". " +
                    (meant.empty() ? "There are " + joined(sections, ", ")
@@ -97,6 +100,10 @@ void CaseFile::Impl::refuse_section(const std::string& place,
 
 void CaseFile::Impl::refuse_key(const std::string& place, const CaseEntry& entry) const
 {
+  if (const auto now = former_names.find({entry.section, entry.key});
+      now != former_names.end())
+    throw InputError(place + " = " + entry.value + ": this key is now `" + now->second +
+                     "`. Rename it.");
   std::string help;
   for (const CaseKey& key : keys)
     if (key.name == entry.key) help = "It belongs to section \"" + key.section + "\".";

@@ -1,18 +1,19 @@
-/// The keys of a CaseFile as they are kept: declared, found by name, placed in the file that
-/// was read. For the sources of CaseFile alone.
+/// The keys of a CaseFile: their declarations, search by name, and their lines in the file
+/// that was read. Included by the sources of CaseFile only.
 #pragma once
 
 #include "apps/case/case_file.h"
 #include "apps/case/case_scan.h"
 
 #include <map>
+#include <utility>
 
 namespace mergel::apps {
 
-/// One key: how it reads, and what it does with a text.
+/// One key: its description, its parser, and its value in the case that was read.
 struct CaseKey {
   std::string name = {}, unit = {}, allowed = {}, sentence = {};
-  std::string standard = {};   ///< text of the default, which parse() takes back exactly
+  std::string standard = {};   ///< text of the default; parse() gives the same bits
   bool is_required = false;    ///< no default
   std::string write_hint = {}; ///< what to write, for a missing key
 
@@ -35,6 +36,9 @@ struct CaseKey {
 struct CaseFile::Impl {
   std::vector<std::string> sections; ///< in the order of declaration
   std::vector<CaseKey> keys;
+  std::map<std::pair<std::string, std::string>, std::string>
+      former_names; ///< by section and former name: the present one
+  std::map<std::string, std::string> former_sections; ///< the same
   std::string open_section;
   std::string open_choice;              ///< of the open condition
   std::vector<std::string> open_values; ///< of the open condition
@@ -58,23 +62,23 @@ struct CaseFile::Impl {
   /// Whether the key exists, its choice being read already.
   bool exists(const CaseKey& key);
 
-  /// A key was given that does not exist in this case: say where it would.
+  /// Refuse a key that does not exist in this case, naming the choice that it belongs to.
   [[noreturn]] void refuse_inactive(const CaseKey& key);
 
-  /// Where the value of a key comes from, as CaseFile::where() says it.
+  /// Where the value of a key comes from, as in CaseFile::where().
   std::string place(const CaseKey& key) const;
 
   /// Names of a section's keys, in the order of declaration.
   std::vector<std::string> names_in(const std::string& section) const;
 
-  /// Say that a section is not known, with the likeliest meant. @param place "pile.prm:14: "
+  /// Refuse an unknown section, naming the nearest known one. @param place "pile.prm:14: "
   [[noreturn]] void refuse_section(const std::string& place,
                                    const std::string& section) const;
 
-  /// The same of a key. @param place "pile.prm:14: Pile/diametre"
+  /// The same for a key. @param place "pile.prm:14: Pile/diametre"
   [[noreturn]] void refuse_key(const std::string& place, const CaseEntry& entry) const;
 
-  /// Refuse what the file has and we do not know; note the lines of the rest.
+  /// Refuse unknown sections and keys of the file; set the lines of the others.
   void match_file(const CaseScan& scan);
 
   /// The same for one --set.

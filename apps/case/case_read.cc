@@ -40,8 +40,8 @@ void CaseFile::read(const std::string& text, const std::string& name,
   impl_->section_lines = scan.sections;
   impl_->match_file(scan);
 
-  // From here on the file is deal.II's to read. Its patterns stay open: the parsers of the
-  // keys know more about units and ranges, and say it in one line.
+  // deal.II reads the file. Its patterns accept any text: the parsers of the keys check
+  // units and ranges, with messages of one line.
   dealii::ParameterHandler prm;
   for (const CaseKey& key : impl_->keys) {
     if (&key != impl_->find_all(key.section, key.name).front()) continue;
@@ -112,7 +112,7 @@ void CaseFile::refuse(const std::string& section, const std::string& key,
 void CaseFile::resolve(const std::string& section, const std::string& key,
                        const std::string& value)
 {
-  impl_->at(section, key); // it is there, and a case was read
+  impl_->at(section, key); // throws unless the key exists and a case was read
   impl_->find(section, key)->resolved = value;
 }
 

@@ -16,8 +16,8 @@ namespace mergel::apps {
 
 namespace {
 
-/// What follows the keyword and a blank, or nothing if the line does not start so.
-bool take_keyword(std::string_view line, std::string_view lower, std::string_view upper,
+/// Whether the line starts with the keyword and a blank; `rest` is then what follows.
+bool read_keyword(std::string_view line, std::string_view lower, std::string_view upper,
                   std::string_view& rest)
 {
   if (!line.starts_with(lower) && !line.starts_with(upper)) return false;
@@ -27,7 +27,7 @@ bool take_keyword(std::string_view line, std::string_view lower, std::string_vie
   return true;
 }
 
-/// Reads lines one after the other; remembers which section is open.
+/// Reads lines one after the other and keeps track of the open section.
 class Scanner {
 public:
   explicit Scanner(const std::string& name) : name_(name) {}
@@ -38,11 +38,11 @@ public:
     line_ = number;
     std::string_view rest;
     if (line.empty()) return;
-    if (take_keyword(line, "subsection", "SUBSECTION", rest))
+    if (read_keyword(line, "subsection", "SUBSECTION", rest))
       open(rest);
-    else if (take_keyword(line, "end", "END", rest))
+    else if (read_keyword(line, "end", "END", rest))
       close(rest);
-    else if (take_keyword(line, "set", "SET", rest))
+    else if (read_keyword(line, "set", "SET", rest))
       set(rest);
     else
       fail(in_quotes(line) +

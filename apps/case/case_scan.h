@@ -1,5 +1,5 @@
-/// The text of a case file, and where each key stands in it: the line numbers that
-/// ParameterHandler forgets.
+/// The text of a case file and the line number of each key, which ParameterHandler does not
+/// keep.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct CaseScan {
 };
 
 /// The text of a case file, with plain newlines and without a byte order mark.
-/// @throws InputError when it is missing, a folder, not readable, or no text
+/// @throws InputError when it is missing, a folder, not readable, or not text
 std::string read_case_text(const std::filesystem::path& path);
 
 /// Scan the text of a case file by the rules of ParameterHandler.
@@ -33,7 +33,7 @@ std::string read_case_text(const std::filesystem::path& path);
 ///         sections or given twice
 CaseScan scan_case(std::string_view text, const std::string& name);
 
-/// One --set argument, "Section/key=value", taken apart; line 0.
+/// The parts of one --set argument, "Section/key=value"; line 0.
 /// @throws InputError when it has another form
 CaseEntry scan_override(const std::string& argument);
 

@@ -1,5 +1,5 @@
-/// A case as text: complete with its defaults, compared with an earlier one, and the help on
-/// its keys.
+/// A case as text: the resolved case, its comparison with an earlier one, and the help on
+/// the keys.
 #include "apps/case/case_keys.h"
 #include "apps/case/words.h"
 #include "dem/io/atomic_file.h"

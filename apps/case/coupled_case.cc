@@ -8,7 +8,7 @@ namespace mergel::apps {
 
 namespace {
 
-void declare_far_field(CaseFile& file, RockCase& c)
+void declare_far_field(CaseFile& file, CoupledCase& c)
 {
   const auto section = file.section("Far field");
   fem::FarFieldSpec& f = c.far_field;
@@ -22,7 +22,8 @@ void declare_far_field(CaseFile& file, RockCase& c)
                 "From the surface to the fixed base.", "mm");
   file.quantity("cell size", f.cell_size, "m", positive,
                 "Edge of the cells, and of the wall faces, at the DEM region.", "mm");
-  file.number("growth", f.growth, between(1.0, 3.0),
+  file.former_name("growth", "mesh growth ratio");
+  file.number("mesh growth ratio", f.growth, between(1.0, 3.0),
               "Ratio of neighbouring cell sizes away from the DEM region.");
   file.quantity("Young's modulus", f.E, "Pa", positive, "E of the intact rock.", "GPa");
   file.number("Poisson ratio", f.nu, from_to(0.0, 0.5).named("nu"),
@@ -39,35 +40,37 @@ void declare_far_field(CaseFile& file, RockCase& c)
                   {"bonded", InterfaceBond::bonded},
                   {"breakable", InterfaceBond::breakable},
                   {"frictional", InterfaceBond::frictional}},
-              "How grains hold to the far field: elastic bonds, bonds that may break, "
-              "contact only.");
+              "How particles are held at the far field: elastic bonds, bonds that may "
+              "break, contact only.");
   c.interface = {0.63e9, 2.4, 0.3, 0.0};
   file.quantity("interface modulus", c.interface.E, "Pa", positive,
-                "Effective modulus of the contact of grains with the far field.", "GPa");
+                "Effective modulus of the contact of particles with the far field.", "GPa");
   file.number("interface friction", c.interface.mu, non_negative,
               "Friction coefficient of that contact.");
-  file.quantity("lip", c.lip, "m", non_negative,
-                "Height of the rim above the surface that keeps debris inside.", "mm");
+  file.former_name("lip", "collar height");
+  file.quantity("collar height", c.collar_height, "m", non_negative,
+                "Height of the collar above the surface that keeps debris inside.", "mm");
 }
 
-void declare_motion(CaseFile& file, RockCase& c)
+void declare_motion(CaseFile& file, CoupledCase& c)
 {
   const auto section = file.section("Motion");
   file.quantity("gravity", c.gravity, "m/s2", non_negative,
-                "Downwards, on grains and far field.");
+                "Downwards, on particles and far field.");
   file.number("damping", c.damping, from_to(0.0, 1.0).named("alpha"),
-              "Local non-viscous damping of grains and far field.");
+              "Local non-viscous damping of particles and far field.");
   file.number("time step safety", c.safety, above_to(0.0, 1.0),
-              "Share of the critical time step that is used.");
+              "Time step over the critical time step.");
   file.flag("free rotation", c.free_rotation,
-            "Let grains without a living bond spin; the paper holds them.");
-  file.number("balance", c.balance, inside(0.0, 1.0),
+            "Let particles without an intact bond rotate; in the paper they do not.");
+  file.former_name("balance", "unbalanced-force tolerance");
+  file.number("unbalanced-force tolerance", c.unbalanced_tolerance, inside(0.0, 1.0),
               "Unbalanced-force ratio at which a state counts as equilibrium.");
 }
 
 } // namespace
 
-void declare(CaseFile& file, RockCase& c)
+void declare(CaseFile& file, CoupledCase& c)
 {
   declare(file, static_cast<SpecimenKeys&>(c));
   declare(file, c.bond);
@@ -76,13 +79,14 @@ void declare(CaseFile& file, RockCase& c)
   declare_motion(file, c);
 }
 
-void complete(CaseFile& file, RockCase& c)
+void complete(CaseFile& file, CoupledCase& c)
 {
   dem::SpecimenSpec& s = c.specimen;
   fem::FarFieldSpec& f = c.far_field;
   c.material.bond = c.bond.chosen();
   if (c.shape != SpecimenKeys::Shape::half_cylinder)
-    file.refuse("Specimen", "shape", "the far field has room for a half cylinder only");
+    file.refuse("Specimen", "shape",
+                "the far field takes a half cylinder only: use `half cylinder`");
   const auto mm = [](double x) { return dem::shortest(1e3 * x) + " mm"; };
   if (c.diameter >= f.chamber_diameter)
     file.refuse(

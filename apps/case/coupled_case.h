@@ -1,18 +1,19 @@
-/// What every job on a coupled rock reads from its case file: specimen, bond, contact, far
-/// field, motion.
+/// What every job with a coupled system reads from its case file: specimen, bond, contact,
+/// far field, motion.
 #pragma once
 
 #include "apps/case/specimen_keys.h"
+#include "dem/assembly/timestep.h"
 #include "fem/far_field/far_field.h"
 
 #include <optional>
 
 namespace mergel::apps {
 
-/// What stands around the DEM region.
+/// What surrounds the DEM region.
 enum class FarFieldModel {
-  elastic, ///< deal.II solid that moves with the rock
-  rigid    ///< the same walls, held
+  elastic, ///< elastic solid (finite elements) that moves with the assembly
+  rigid    ///< the same walls, held fixed
 };
 
 /// How the interface holds the particles next to it.
@@ -22,8 +23,8 @@ enum class InterfaceBond {
   frictional ///< contact only
 };
 
-/// The DEM region is a half cylinder inside the far field.
-struct RockCase : SpecimenKeys {
+/// The DEM region is a half cylinder inside the far field (coupling/README.md, Interface).
+struct CoupledCase : SpecimenKeys {
   BondKeys bond;
   dem::PairMaterials material; ///< its bond is set by complete()
 
@@ -32,21 +33,21 @@ struct RockCase : SpecimenKeys {
   fem::FarFieldSpec far_field;
   dem::LinearMaterial interface;
   InterfaceBond interface_bond = InterfaceBond::bonded;
-  double lip = 2e-3; ///< [m]
+  double collar_height = 2e-3; ///< [m]
 
   // Motion
-  double gravity = 9.81; ///< [m/s^2], downwards
-  double damping = 0.7;
-  double safety = 0.7; ///< of the time step
+  double gravity = dem::standard_gravity; ///< [m/s^2], downwards
+  double damping = dem::default_damping;
+  double safety = dem::default_safety; ///< of the time step
   bool free_rotation = false;
-  double balance = 1e-4; ///< unbalanced-force ratio of an equilibrium [-]
+  double unbalanced_tolerance = 1e-4; ///< unbalanced-force ratio of an equilibrium [-]
 };
 
 /// Declare the keys of `Specimen`, `Bond`, `Contact`, `Far field` and `Motion`.
-void declare(CaseFile& file, RockCase& c);
+void declare(CaseFile& file, CoupledCase& c);
 
-/// Fill what follows from the keys, and check what spans several of them.
+/// Set what follows from the keys, and check conditions on several of them.
 /// @throws InputError naming file, line and key
-void complete(CaseFile& file, RockCase& c);
+void complete(CaseFile& file, CoupledCase& c);
 
 } // namespace mergel::apps

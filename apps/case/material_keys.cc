@@ -18,9 +18,10 @@ void declare(CaseFile& file, dem::DamageBond& b)
               std::vector<std::pair<std::string, dem::BendingFlow>>{
                   {"conjugate", dem::BendingFlow::conjugate},
                   {"published", dem::BendingFlow::published}},
-              "Plastic rotation as the gradient in M, or as Eq. 7 prints it.");
-  file.number("broken at damage", b.D_broken, inside(0.0, 1.0),
-              "Damage at which a bond is gone for good.");
+              "Plastic rotation: conjugate to M, or as Eq. 7 is printed.");
+  file.former_name("broken at damage", "damage at breakage");
+  file.number("damage at breakage", b.D_broken, inside(0.0, 1.0),
+              "Damage at which a bond breaks.");
   file.choice("twist", b.twist,
               std::vector<std::pair<std::string, dem::Twist>>{
                   {"none", dem::Twist::none}, {"elastic", dem::Twist::elastic}},
@@ -31,9 +32,10 @@ void declare(CaseFile& file, dem::ParallelBond& b)
 {
   b.sigma_c = b.tau_c = unset;
   file.quantity("tensile strength", b.sigma_c, "Pa", positive,
-                "Of the cement, against the greatest tension over the section.", "MPa");
+                "Of the cement, compared with the largest tension over the section.",
+                "MPa");
   file.quantity("shear strength", b.tau_c, "Pa", positive,
-                "Of the cement, against the greatest shear over the section.", "MPa");
+                "Of the cement, compared with the largest shear over the section.", "MPa");
 }
 
 } // namespace
@@ -65,7 +67,7 @@ void declare(CaseFile& file, BondKeys& b)
   file.number("stiffness ratio", b.section.kappa, positive,
               "Normal to shear stiffness, Eq. 4.");
   file.number("radius ratio", b.section.lambda_b, above_to(0.0, 1.0),
-              "Bond radius over the smaller grain radius.");
+              "Bond radius over the smaller particle radius.");
   {
     const auto only = file.only_if("bond law", {dem::DamageBond::name});
     declare(file, b.damage);
@@ -79,11 +81,12 @@ void declare(CaseFile& file, dem::LinearMaterial& contact)
   const auto section = file.section("Contact");
   contact.E = contact.kappa = contact.mu = contact.g_a = unset;
   file.quantity("effective modulus", contact.E, "Pa", positive,
-                "Modulus of the far-field contact between grains.", "GPa");
+                "Modulus of the far-field contact between particles.", "GPa");
   file.number("stiffness ratio", contact.kappa, positive, "Normal to shear stiffness.");
-  file.number("friction", contact.mu, non_negative, "Friction coefficient between grains.");
+  file.number("friction", contact.mu, non_negative,
+              "Friction coefficient between particles.");
   file.quantity("activation gap", contact.g_a, "m", non_negative,
-                "Gap at which grains begin to act, g_a at S = 1; scales with S, Eq. 8.",
+                "Gap below which the contact acts, g_a at S = 1; scales with S, Eq. 8.",
                 "mm");
 }
 

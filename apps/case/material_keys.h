@@ -1,4 +1,4 @@
-/// The keys of bond and contact, the same in every job.
+/// The keys of bond and contact, common to all jobs.
 #pragma once
 
 #include "apps/case/case_file.h"
@@ -13,17 +13,17 @@ struct BondKeys {
   enum class Law { damage, parallel };
 
   Law law = Law::damage;
-  dem::BondSection section; ///< common to all laws, but for the twist
+  dem::BondSection section; ///< common to all laws, except the twist
   dem::DamageBond damage;
   dem::ParallelBond parallel;
 
-  /// The law that was chosen, complete.
+  /// The chosen law with all its parameters.
   dem::BondLaw chosen() const;
 };
 
 void declare(CaseFile& file, BondKeys& b);
 
-/// Section "Contact": the far-field contact between grains.
+/// Section "Contact": the far-field contact between particles.
 void declare(CaseFile& file, dem::LinearMaterial& contact);
 
 } // namespace mergel::apps

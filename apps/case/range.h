@@ -1,4 +1,4 @@
-/// What a number in a case file may be, and how that is said.
+/// Allowed values of a number in a case file, and their text.
 #pragma once
 
 #include <limits>
@@ -6,13 +6,13 @@
 
 namespace mergel::apps {
 
-/// The values a number may take, bounds in SI. Knows its own text: "0 <= nu < 0.5".
+/// The values a number may take, bounds in SI, with their text: "0 <= nu < 0.5".
 struct Range {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   bool is_lower_open = false, is_upper_open = false; ///< bound itself excluded
-  std::string symbol = "value";                      ///< stands for the number in the text
-  std::string remedy = ""; ///< said after a violation; may be empty
+  std::string symbol = "value";                      ///< name of the number in the text
+  std::string remedy = "";                           ///< printed after a violation
 
   bool holds(double value) const; ///< false for NaN
   /// "0 < value <= 3 MPa", bounds shown as by with_unit(). "any number" without bounds.

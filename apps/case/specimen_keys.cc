@@ -29,8 +29,8 @@ void declare_shape(CaseFile& file, SpecimenKeys& k)
       std::vector<std::pair<std::string, Shape>>{{half_cylinder, Shape::half_cylinder},
                                                  {cylinder, Shape::cylinder},
                                                  {periodic_box, Shape::periodic_box}},
-      "Of the DEM region: half of an upright cylinder cut at y = 0, a whole one, or "
-      "a box that goes on beyond its faces.");
+      "Shape of the DEM region: half of an upright cylinder cut at y = 0, a full cylinder, "
+      "or a periodic box.");
   {
     const auto only = file.only_if("shape", {half_cylinder, cylinder});
     file.quantity("diameter", k.diameter, "m", positive, "Diameter of the DEM region.",
@@ -40,7 +40,7 @@ void declare_shape(CaseFile& file, SpecimenKeys& k)
   {
     const auto only = file.only_if("shape", {cylinder});
     file.integer("faces around the side", k.faces, at_least(3.0),
-                 "The side is a prism of so many planes inside the circle.");
+                 "Number of faces of the prism inscribed in the cylinder.");
   }
   {
     const auto only = file.only_if("shape", {periodic_box});
@@ -52,7 +52,8 @@ void declare_shape(CaseFile& file, SpecimenKeys& k)
   file.choice("symmetry", k.symmetry,
               std::vector<std::pair<std::string, Symmetry>>{{"mirror", Symmetry::mirror},
                                                             {"wall", Symmetry::wall}},
-              "Cut plane: grains bonded to their mirror image, or images in contact only.");
+              "Cut plane: particles bonded to their mirror images, or in contact with them "
+              "only.");
 }
 
 void declare_sizes(CaseFile& file, SpecimenKeys& k)
@@ -63,24 +64,24 @@ void declare_sizes(CaseFile& file, SpecimenKeys& k)
                                                  {power_law, Sizes::power},
                                                  {log_normal, Sizes::log_normal},
                                                  {from_table, Sizes::table}},
-      "Grading: all diameters equally often; by mass a power law (Fuller and "
+      "Grading: all diameters equally frequent by number; by mass a power law (Fuller and "
       "Thompson 1907, Talbot and Richart 1923) or log-normal; or a sieve curve.");
   {
     const auto only = file.only_if("sizes", {uniform_in_number, power_law, log_normal});
     file.quantity("smallest diameter", k.d_min, "m", positive,
-                  "Smallest grain at S = 1, d00.", "mm");
-    file.quantity("largest diameter", k.d_max, "m", positive, "Largest grain at S = 1.",
+                  "Smallest particle at S = 1, d00.", "mm");
+    file.quantity("largest diameter", k.d_max, "m", positive, "Largest particle at S = 1.",
                   "mm");
   }
   {
     const auto only = file.only_if("sizes", {power_law});
     file.number("exponent", k.exponent, above_to(0.0, 3.0),
-                "Of the share by mass over the diameter; 0.5 is Fuller's curve.");
+                "Of the mass fraction over the diameter; 0.5 is Fuller's curve.");
   }
   {
     const auto only = file.only_if("sizes", {log_normal});
     file.quantity("median diameter", k.d_50, "m", positive,
-                  "By mass, at S = 1, before the curve is cut at its ends.", "mm");
+                  "By mass, at S = 1, before the curve is truncated.", "mm");
     file.number("spread", k.spread, above_to(0.0, 3.0),
                 "Standard deviation of the logarithm of the diameter.");
   }
@@ -89,8 +90,8 @@ void declare_sizes(CaseFile& file, SpecimenKeys& k)
             "Sieve curve at S = 1: columns `diameter [mm]`, `passing [%]` by mass.",
             Default::none);
   file.text("size table sum", k.table_sum,
-            "Checksum of that file, which a resolved case holds: a changed table is "
-            "refused. Empty: the table is taken as it is.");
+            "Checksum of that file, set in a resolved case: a changed table is refused. "
+            "Empty: not checked.");
 }
 
 void declare_upscaling(CaseFile& file, SpecimenKeys& k)
@@ -100,11 +101,11 @@ void declare_upscaling(CaseFile& file, SpecimenKeys& k)
   file.choice("upscaling", k.upscaling,
               std::vector<std::pair<std::string, Upscaling>>{
                   {"graded", Upscaling::graded}, {"uniform", Upscaling::uniform}},
-              "Ratio S of the grains to those of the rock: growing with the distance from "
-              "the axis, or the same everywhere.");
+              "Ratio S of the particle size to the grain size of the rock: growing with "
+              "the distance from the axis, or uniform.");
   {
     const auto only = file.only_if("upscaling", {"uniform"});
-    file.number("upscaling ratio", k.S, positive, "S of all grains.");
+    file.number("upscaling ratio", k.S, positive, "S of all particles.");
   }
   const auto only = file.only_if("upscaling", {"graded"});
   file.number("inner upscaling", s.S_inner, positive,
@@ -130,26 +131,29 @@ void declare_packing(CaseFile& file, SpecimenKeys& k)
                   {"unjammed", dem::Compaction::unjammed},
                   {"confined", dem::Compaction::confined},
                   {"expanded", dem::Compaction::expanded}},
-              "No far-field contact presses; the porosity and a pressure are met together; "
-              "or radii grow to the porosity, whatever the pressure then is.");
+              "unjammed: no far-field contact is loaded; confined: porosity and a "
+              "pressure are reached together; expanded: radii grow to the porosity, at any "
+              "pressure.");
   {
     const auto only = file.only_if("packing", {"confined"});
     s.pressure = 5e3;
     file.quantity("target pressure", s.pressure, "Pa", positive,
-                  "Mean stress of the unbonded grains at rest, met within a fifth.", "kPa");
+                  "Mean stress of the unbonded particles at rest; reached within 20 %.",
+                  "kPa");
   }
   {
     const auto only = file.only_if("packing", {"expanded"});
     file.number("generation friction", s.friction, non_negative,
-                "Between the grains while they come to rest.");
+                "Friction coefficient between the particles until they come to rest.");
   }
   file.number("coordination", s.coordination, positive,
-              "Target Z = 2 N_bonds/N; the bond gap may end it earlier.");
+              "Target Z = 2 N_bonds/N; the bond gap may limit it to less.");
   file.quantity("bond gap", s.g_b, "m", non_negative,
                 "Largest gap that is bonded, g_b at S = 1; scales with S, Eq. 8.", "mm");
-  file.integer("seed", s.seed, non_negative, "Of the random cloud of grains.");
+  file.integer("seed", s.seed, non_negative,
+               "Of the random positions and sizes of the particles.");
   file.path("file", k.sample,
-            "A specimen made before by mergel sample; empty: make it for this run.");
+            "Specimen file made by mergel sample; empty: the run makes its specimen.");
 }
 
 std::string in_mm(double x)
@@ -192,23 +196,23 @@ dem::Region region_of(const SpecimenKeys& k)
   return dem::PeriodicBox{k.edges};
 }
 
-/// Refuse a table that is not the one of the case, or let the resolved case hold its sum.
+/// Refuse a table whose checksum is not that of the case; set it in the resolved case.
 void check_table(CaseFile& file, SpecimenKeys& k)
 {
-  std::ifstream in(k.table, std::ios::binary); // read before: it is there
+  std::ifstream in(k.table, std::ios::binary); // was read by curve_of()
   const std::string bytes((std::istreambuf_iterator<char>(in)), {});
   const std::string sum = dem::hexadecimal(dem::fnv_1a(bytes));
   if (!k.table_sum.empty() && k.table_sum != sum)
     file.refuse(
         "Specimen", "size table sum",
         k.table.string() + " has " + sum +
-            ": it was changed since this case was resolved. Put the old table back, "
-            "or leave this key out to begin a run with the new one");
+            ": it was changed after this case was resolved. Restore the old table, or "
+            "leave this key out to begin a run with the new one");
   k.table_sum = sum;
   file.resolve("Specimen", "size table sum", sum);
 }
 
-/// The key that would mend grains that are too large.
+/// The key to lower when particles are too large.
 const char* ratio_key(const SpecimenKeys& k)
 {
   if (k.upscaling == Upscaling::uniform) return "upscaling ratio";
@@ -262,21 +266,20 @@ void complete(CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& contac
   s.region = region_of(k);
 
   const double largest = s.sizes.largest() * std::max(s.scale.S_inner, s.scale.S_outer);
-  if (dem::least_width(s.region) <= dem::width_needed(s))
+  if (dem::smallest_width(s.region) <= dem::width_needed(s))
     file.refuse("Specimen", ratio_key(k),
-                "the largest grain, " + in_mm(largest) +
+                "the largest particle, " + in_mm(largest) +
                     ", does not fit the region, which must be wider than " +
                     in_mm(dem::width_needed(s)) +
                     ": lower the ratio or enlarge the region");
-  if (dem::most_grains(s) > dem::grains_limit)
-    file.refuse(
-        "Specimen", finest_key(k),
-        "the region may hold more than 2e7 grains: raise the diameters or the upscaling "
-        "ratio");
-  // Shells ten times the volume of their spheres: a slip of units, no rock.
+  if (dem::max_particles(s) > dem::particles_limit)
+    file.refuse("Specimen", finest_key(k),
+                "the region may hold more than 2e7 particles: raise the diameters or the "
+                "upscaling ratio");
+  // Shells of ten times the particle volume: a mistake in the units.
   if (dem::effective_solid_fraction(s) > 10.0 * (1.0 - s.porosity))
     file.refuse("Contact", "activation gap",
-                "with it the grains reach ten times their volume: lower it, or raise "
+                "with it the particles take ten times their own volume: lower it, or raise "
                 "`Specimen/" +
                     std::string(finest_key(k)) + "`, " + in_mm(s.sizes.smallest()));
   try {

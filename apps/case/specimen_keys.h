@@ -1,5 +1,5 @@
-/// Section `Specimen` of a case: shape, grain sizes, upscaling, density of packing and
-/// bonding; with it how strengths vary. The same in every job that makes a specimen.
+/// Sections `Specimen` (shape, sizes, upscaling, packing, bonding) and `Strength
+/// variability` of a case. The same in every job that makes a specimen.
 #pragma once
 
 #include "apps/case/material_keys.h"
@@ -8,10 +8,10 @@
 
 namespace mergel::apps {
 
-/// What holds the half model at its symmetry plane.
+/// What supports the half model at its symmetry plane.
 enum class Symmetry {
-  mirror, ///< each particle near the plane is bonded to its image: the plane carries tension
-  wall    ///< images act by their contact only
+  mirror, ///< particles near the plane are bonded to their images: it carries tension
+  wall    ///< particles and their images are in contact only
 };
 
 struct SpecimenKeys {
@@ -20,8 +20,8 @@ struct SpecimenKeys {
   enum class Upscaling { graded, uniform };
 
   Shape shape = Shape::half_cylinder;
-  double diameter = unset, height = unset;      ///< of a cylinder or half of one [m]
-  int faces = 48;                               ///< around the side of a cylinder
+  double diameter = unset, height = unset;      ///< of a cylinder or half cylinder [m]
+  int faces = 48;                               ///< plane faces of the side of a cylinder
   dem::Vec3 edges = dem::Vec3::Constant(unset); ///< of a periodic box [m]
 
   Sizes sizes = Sizes::uniform;
@@ -29,7 +29,7 @@ struct SpecimenKeys {
   double exponent = 0.5;               ///< of a power law [-]
   double d_50 = unset, spread = unset; ///< of a log-normal law [m], [-]
   std::filesystem::path table;         ///< of a sieve curve
-  std::string table_sum;               ///< of its bytes; empty: as it is found
+  std::string table_sum;               ///< its checksum; empty: not checked
 
   Upscaling upscaling = Upscaling::graded;
   double S = unset; ///< the same everywhere
@@ -37,18 +37,19 @@ struct SpecimenKeys {
   dem::SpecimenSpec specimen; ///< region, sizes and contact are set by complete()
   Symmetry symmetry = Symmetry::mirror;
   std::filesystem::path sample;       ///< empty: make the specimen
-  dem::StrengthVariability strengths; ///< drawn by each run: no part of a sample's recipe
+  dem::StrengthVariability strengths; ///< drawn by each run; not part of the recipe
 };
 
-/// Declare the keys; defaults of the choices are those that `k` holds.
+/// Declare the keys. The defaults of the choices are the values in `k`.
 void declare(CaseFile& file, SpecimenKeys& k);
 
-/// Fill k.specimen from the keys and this far-field contact, and check it. The sides of a half
-/// cylinder are the far field's, which has no mesh yet: two of them, enough for the checks.
+/// Set k.specimen from the keys and this far-field contact, and check it. The side of a
+/// half cylinder gets two faces here, enough for the checks; make_far_field() sets their
+/// number.
 /// @throws InputError naming file, line and key
 void complete(CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& contact);
 
-/// Key and value of everything that fixes a specimen, in a fixed order.
+/// Key and value of everything that determines a specimen, in a fixed order.
 std::vector<std::pair<std::string, std::string>> recipe(const SpecimenKeys& k);
 
 } // namespace mergel::apps

@@ -20,14 +20,17 @@ void declare(CaseFile& file, dem::StrengthVariability& v)
   const auto section = file.section("Strength variability");
   file.choice(
       "distribution", v.distribution, distributions,
-      "Of a factor of mean 1 that each grain draws; a bond's strengths are times the "
-      "mean of its grains' factors, a bond's to a wall times its grain's.");
+      "Distribution of a factor of mean 1 that is drawn for each particle. The strengths "
+      "of a bond are multiplied by the mean of the factors of its two particles, those of "
+      "a bond to a wall by the factor of its particle.");
   const auto only = file.only_if("distribution", {"log-normal", "Weibull"});
   v.variation = unset;
   file.number("coefficient of variation", v.variation, above_to(0.0, 1.0),
-              "Standard deviation of the grains' factors; that of bonds is 0.71 of it.");
+              "Standard deviation of the particles' factors; that of the bonds is 0.71 "
+              "times as large.");
   file.integer("seed", v.seed, non_negative,
-               "Of the factors; with the same seed a grain keeps its factor in all jobs.");
+               "Of the factors; with the same seed a particle has the same factor in all "
+               "jobs.");
 }
 
 std::string report(const dem::StrengthVariability& v, const dem::Particles& p)
@@ -39,10 +42,10 @@ std::string report(const dem::StrengthVariability& v, const dem::Particles& p)
   const dem::StrengthSpread drawn = dem::describe_strengths(p);
   std::ostringstream out;
   out.precision(4);
-  out << "\nstrengths vary: " << name << ", seed " << v.seed << "; factors of the grains "
-      << drawn.least << " to " << drawn.greatest << ", mean " << drawn.mean
-      << ", coefficient of variation " << drawn.variation << " (wanted " << v.variation
-      << ')';
+  out << "\nstrengths vary: " << name << ", seed " << v.seed
+      << "; factors of the particles " << drawn.smallest << " to " << drawn.largest
+      << ", mean " << drawn.mean << ", coefficient of variation " << drawn.variation
+      << " (wanted " << v.variation << ')';
   return out.str();
 }
 

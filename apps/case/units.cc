@@ -24,17 +24,17 @@ namespace {
 using Unit = std::unique_ptr<ut_unit, void (*)(ut_unit*)>;
 using Converter = std::unique_ptr<cv_converter, void (*)(cv_converter*)>;
 
-/// The units database, read at its first use; it lives as long as the program.
+/// The units database, read at its first use and kept until the program ends.
 ut_system& unit_system()
 {
   static const std::unique_ptr<ut_system, void (*)(ut_system*)> system = [] {
-    ut_set_error_message_handler(ut_ignore); // we write our own messages
+    ut_set_error_message_handler(ut_ignore); // the functions below write their own messages
     return std::unique_ptr<ut_system, void (*)(ut_system*)>(ut_read_xml(nullptr),
                                                             ut_free_system);
   }();
   if (!system)
     throw NumericalError("the database of units cannot be read. Install libudunits2-0, or "
-                         "let UDUNITS2_XML_PATH name udunits2.xml");
+                         "set UDUNITS2_XML_PATH to the path of udunits2.xml");
   return *system;
 }
 
@@ -43,8 +43,8 @@ Unit parse_unit(const std::string& name)
   return {ut_parse(&unit_system(), name.c_str(), UT_UTF8), ut_free};
 }
 
-/// Whether `a` and `b` measure the same thing. udunits alone takes rad, percent and 1 as
-/// convertible, so the quotient is asked for: it must be a bare number.
+/// Whether `a` and `b` have the same dimension. udunits treats rad, percent and 1 as
+/// convertible, so this function requires that their quotient is a number without unit.
 bool same_dimension(const ut_unit* a, const ut_unit* b)
 {
   const Unit quotient(ut_divide(a, b), ut_free);
@@ -59,7 +59,7 @@ bool same_dimension(const ut_unit* a, const ut_unit* b)
   return definition.find_first_not_of("0123456789.e+-") == std::string_view::npos;
 }
 
-/// How one unit is reached from another: as a power of ten if it is one, else as a factor.
+/// Conversion from one unit to another: a factor, and its power of ten if it is one.
 struct Scale {
   double factor = 1.0;
   std::optional<int> power = 0; ///< factor = 10^power
@@ -74,7 +74,7 @@ std::optional<Scale> scale(ut_unit* from, ut_unit* to)
 
   Scale s{cv_convert_double(converter.get(), 1.0), std::nullopt};
   if (!(s.factor > 0.0) || !std::isfinite(s.factor)) return std::nullopt;
-  // udunits gives 999.99999999999989 for g/cm3: a few bits decide nothing here
+  // udunits gives 999.99999999999989 for g/cm3: a difference of a few bits is ignored
   const int power = static_cast<int>(std::lround(std::log10(s.factor)));
   if (std::abs(s.factor / std::pow(10.0, power) - 1.0) < 1e-13) s.power = power;
   return s;
@@ -129,7 +129,7 @@ std::optional<double> shifted(std::string_view number, int power)
   return value;
 }
 
-/// d.ddde<exponent> rewritten the way a person would: 0.0014, 195000, 1.1e9.
+/// d.ddde<exponent> in a readable form: 0.0014, 195000, 1.1e9.
 std::string readable(const std::string& digits, bool is_negative, int exponent)
 {
   std::string text;
@@ -240,7 +240,7 @@ std::string with_unit(double value, const std::string& si_unit,
   if (!s) throw std::logic_error("\"" + shown + "\" cannot show a value in " + si_unit);
   if (s->power) return shortest(value, *s->power) + " " + shown;
 
-  // another factor rounds: the shortest decimal that comes back exactly, if there is one
+  // any other factor rounds: the shortest decimal that gives the same bits, if there is one
   std::array<char, 64> buffer{};
   for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
     const auto written =

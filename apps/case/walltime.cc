@@ -46,7 +46,7 @@ double to_walltime(const std::string& text)
 {
   const InputError wrong(
       "mergel: --walltime " + text +
-      ": is no time above 0; expected for example \"4 h\", \"30 min\", \"4:00:00\" or "
+      ": is not a time above 0; expected for example \"4 h\", \"30 min\", \"4:00:00\" or "
       "\"1-12:00:00\"");
   const bool is_clock = text.find_first_of(":-") != std::string::npos &&
                         text.find_first_not_of("0123456789:-") == std::string::npos;

@@ -1,4 +1,5 @@
-/// The words of a message: trimmed, joined, wrapped, and the one a user probably meant.
+/// Text of messages: trimmed, joined, quoted, wrapped, and the known word nearest to
+/// another.
 #pragma once
 
 #include <algorithm>
@@ -69,7 +70,7 @@ inline std::string in_one_line(std::string text)
   return joined(kept, " ");
 }
 
-/// The value of a key, to be told.
+/// The value of a key, for a message.
 inline std::string shown(const std::string& value)
 {
   return value.empty() ? "not given" : value;
@@ -110,11 +111,11 @@ inline std::size_t edit_distance(const std::string& a, const std::string& b)
 inline std::string nearest(const std::string& word, const std::vector<std::string>& words)
 {
   std::string best;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::size_t smallest = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : words) {
     const std::size_t distance = edit_distance(word, candidate);
-    if (distance < least && distance < std::max(word.size(), candidate.size())) {
-      least = distance;
+    if (distance < smallest && distance < std::max(word.size(), candidate.size())) {
+      smallest = distance;
       best = candidate;
     }
   }

@@ -1,4 +1,4 @@
-/// The state of a coupled rock as named arrays, and back.
+/// Saving and loading a coupled system as named arrays.
 #include "apps/coupled/coupled_system.h"
 #include "dem/assembly/distribute.h"
 #include "dem/io/state/assembly_state.h"
@@ -9,7 +9,7 @@ namespace mergel::apps {
 
 namespace {
 
-/// The four fields of the far field's motion, by name.
+/// The four nodal fields of the far field's motion, by name.
 template <class Motion>
 auto fields_of(Motion& m)
 {
@@ -20,7 +20,7 @@ auto fields_of(Motion& m)
        {"far_field_f", &m.f_interface}}};
 }
 
-/// Its step and energies.
+/// Time step and energies of the far field.
 template <class Motion>
 auto numbers_of(Motion& m)
 {
@@ -31,10 +31,10 @@ auto numbers_of(Motion& m)
                                         &e.damping};
 }
 
-/// Rows of a nodal field: x, y, z and a fourth number that is kept for alignment.
+/// Length of a row of a nodal field: x, y, z and a fourth number for alignment.
 constexpr std::size_t nodal_columns = 4;
 
-void put(dem::State& state, const fem::Motion& motion)
+void save(dem::State& state, const fem::NodalMotion& motion)
 {
   for (const auto& [name, field] : fields_of(motion))
     state.add_common(name,
@@ -45,9 +45,9 @@ void put(dem::State& state, const fem::Motion& motion)
   state.add_common("far_field_numbers", std::move(numbers));
 }
 
-fem::Motion take_motion(const dem::State& state, const fem::Motion& of_this_mesh)
+fem::NodalMotion load_motion(const dem::State& state, const fem::NodalMotion& of_this_mesh)
 {
-  fem::Motion motion = of_this_mesh;
+  fem::NodalMotion motion = of_this_mesh;
   for (const auto& [name, field] : fields_of(motion)) {
     const auto& values = state.get_rows<double>(
         name, static_cast<std::size_t>(field->cols()), nodal_columns);
@@ -61,43 +61,43 @@ fem::Motion take_motion(const dem::State& state, const fem::Motion& of_this_mesh
 
 } // namespace
 
-void CoupledRock::put(dem::State& state) const
+void CoupledSystem::save(dem::State& state) const
 {
-  dem::put(state, rock);
-  apps::put(state, far_field.motion());
+  dem::save(state, assembly);
+  apps::save(state, far_field.motion());
   state.add_common<double>("coupled_numbers", {dt, dt_before, time});
   state.add_common<std::uint64_t>(
-      "coupled_counts", {n_steps, static_cast<std::uint64_t>(settling.stage), settling.n});
+      "coupled_counts", {n_steps, static_cast<std::uint64_t>(settling.phase), settling.n});
   std::vector<double> x;
   for (const dem::Vec3& a : x_0) x.insert(x.end(), {a.x(), a.y(), a.z()});
   state.add_common("x_0", std::move(x), 3);
 }
 
-CoupledRock::CoupledRock(const RockCase& c, dem::State& state,
-                         std::vector<dem::PileWall> piles, fem::FarField field,
-                         coupling::Interface interface)
-    : CoupledRock(c, std::move(field), std::move(interface))
+CoupledSystem::CoupledSystem(const CoupledCase& c, dem::State& state,
+                             std::vector<dem::PileWall> piles, fem::FarField field,
+                             coupling::Interface interface)
+    : CoupledSystem(c, std::move(field), std::move(interface))
 {
-  rock.piles = std::move(piles);
-  dem::take(state, rock);
-  dem::draw_strengths(c.strengths, rock.particles);
-  far_field.restore(take_motion(state, far_field.motion()));
+  assembly.piles = std::move(piles);
+  dem::load(state, assembly);
+  dem::draw_strengths(c.strengths, assembly.particles);
+  far_field.restore(load_motion(state, far_field.motion()));
   const auto& numbers = state.get_rows<double>("coupled_numbers", 3);
   dt = numbers[0];
   dt_before = numbers[1];
   time = numbers[2];
   const auto& counts = state.get_rows<std::uint64_t>("coupled_counts", 3);
   n_steps = counts[0];
-  if (counts[1] > static_cast<std::uint64_t>(Settling::Stage::done))
-    dem::State::refuse("coupled_counts", "names an unknown stage");
-  settling = {static_cast<Settling::Stage>(counts[1]), counts[2]};
+  if (counts[1] > static_cast<std::uint64_t>(Settling::Phase::done))
+    dem::State::refuse("coupled_counts", "has an unknown phase of settling");
+  settling = {static_cast<Settling::Phase>(counts[1]), counts[2]};
   const auto& x = state.get<double>("x_0", 3);
-  if (!x.empty() && x.size() != 3 * rock.particles.size())
-    dem::State::refuse("x_0", "has not a row for each grain");
+  if (!x.empty() && x.size() != 3 * assembly.particles.size())
+    dem::State::refuse("x_0", "does not have one row per particle");
   for (std::size_t k = 0; k < x.size(); k += 3) x_0.emplace_back(x[k], x[k + 1], x[k + 2]);
 
-  dem::share_out(rock, MPI_COMM_WORLD);
-  dem::rebuild_lists(rock);
+  dem::distribute(assembly, MPI_COMM_WORLD);
+  dem::rebuild_lists(assembly);
 }
 
 } // namespace mergel::apps

@@ -21,7 +21,8 @@ void declare_size_effect(CaseFile& file, SizeEffectKeys& e)
   const auto section = file.section("Size effect");
   file.flag("size effect", e.is_on,
             "Multiply the strengths of the bonds by psi (B_ref/B)^0.18, Eqs. 17-19.");
-  file.quantity("sample width", e.width, "m", non_negative,
+  file.former_name("sample width", "specimen width");
+  file.quantity("specimen width", e.width, "m", non_negative,
                 "B; 0 takes the mean edge of the cell.", "mm");
   file.quantity("reference width", e.law.reference_width, "m", positive,
                 "B_ref, at which the strengths of section Bond hold.", "mm");
@@ -32,38 +33,40 @@ void declare_size_effect(CaseFile& file, SizeEffectKeys& e)
 void declare_loading(CaseFile& file, ElementCase& c)
 {
   const auto section = file.section("Loading");
-  c.leg_texts.assign(most_legs, "");
-  for (std::size_t k = 0; k < most_legs; ++k)
-    file.text(key_of_leg(k), c.leg_texts[k],
-              k > 0
-                  ? "The next leg; empty: the test ends before."
-                  : std::string("A leg of the path: ") + forms_of_leg +
-                        ". Compression is positive, z is the axis, strains count from the "
-                        "start of the leg (resume, unload, reload: of the leg resumed).",
-              k > 0 ? Default::present : Default::none);
+  c.stage_texts.assign(max_stages, "");
+  for (std::size_t k = 0; k < max_stages; ++k) {
+    file.former_name("leg " + std::to_string(k + 1), key_of_stage(k));
+    file.text(
+        key_of_stage(k), c.stage_texts[k],
+        k > 0 ? "The next loading stage; empty: the test ends with the stage before."
+              : std::string("A loading stage: ") + forms_of_stage +
+                    ". Compression is positive, z is the axis, strains count from the "
+                    "start of the stage (resume, unload, reload: of the stage resumed).",
+        k > 0 ? Default::present : Default::none);
+  }
   file.number(
       "inertial number", c.inertial_number, inside(0.0, 0.1),
-      "I = rate d sqrt(rho/p) of the driven strain, d the mean grain by mass, rho its "
-      "density; quasi-static below 1e-3.");
+      "I = rate d sqrt(rho/p) of the controlled strain, d the mean particle diameter by "
+      "mass, rho the particle density; quasi-static below 1e-3.");
   file.quantity("reference pressure", c.reference_pressure, "Pa", positive,
-                "Stands for p in I where |p| is below.", "MPa");
+                "Used in I in place of p where |p| is smaller.", "MPa");
   file.number("strain limit", c.strain_limit, inside(0.0, 0.9),
-              "A test that comes so far, from the edges it began with, ends there.");
+              "The test ends where a strain since its start exceeds this limit.");
   file.number(
       "reversal", c.reversal, inside(0.0, 1.0),
-      "A leg to a stress that falls back by this share of the way it had made has met "
-      "an unstable point: it ends the test.");
+      "The test ends at an unstable point: a stress on its way to the target falls back by "
+      "this fraction of the way made.");
 }
 
 void declare_motion(CaseFile& file, ElementCase& c)
 {
   const auto section = file.section("Motion");
   file.number("damping", c.damping, from_to(0.0, 1.0).named("alpha"),
-              "Local non-viscous damping of the grains' motion against the cell.");
+              "Local non-viscous damping of the particles' motion relative to the cell.");
   file.number("time step safety", c.safety, above_to(0.0, 1.0),
-              "Share of the critical time step that is used.");
+              "Time step over the critical time step.");
   file.flag("free rotation", c.free_rotation,
-            "Let grains without a living bond spin; the paper holds them.");
+            "Let particles without an intact bond rotate; in the paper they do not.");
 }
 
 void declare_analysis(CaseFile& file, ElementCase& c)
@@ -71,43 +74,44 @@ void declare_analysis(CaseFile& file, ElementCase& c)
   const auto section = file.section("Analysis");
   file.number(
       "secant from", c.secant_from, non_negative,
-      "Strain of the leg at which the secant for moduli and Poisson's ratio starts.");
+      "Strain of the stage at which the secant for moduli and Poisson's ratio starts.");
   file.number("secant to", c.secant_to, positive, "Strain at which it ends.");
   file.number("yield offset", c.yield_offset, positive,
-              "Strain by which the line of the modulus is moved for the yield point.");
+              "Strain by which the secant line is offset for the yield point.");
   file.text(
       "critical states", c.critical_text,
-      "Folders of other element runs, with blanks between: their last states and this "
-      "run's are fitted by the critical state line.");
+      "Results folders of other element runs, separated by blanks: the critical state line "
+      "is fitted to their final states and that of this run.");
 }
 
-/// Refuse a cell that the strain limit would make too small for its grains.
+/// Refuse a cell that the strain limit would make too small for its particles.
 void check_size(const CaseFile& file, const ElementCase& c)
 {
   const dem::Grading& sizes = c.specimen.specimen.sizes;
-  const double range = c.contact.g_a + dem::usual_skin * sizes.smallest();
-  const double least = dem::least_edge(sizes.largest(), range, c.specimen.S);
+  const double range = c.contact.g_a + dem::default_skin * sizes.smallest();
+  const double smallest = dem::smallest_edge(sizes.largest(), range, c.specimen.S);
   const double edge = c.specimen.edges.minCoeff();
-  // A confined cell is a little smaller, and the limit is looked at when a line is due.
-  if (0.99 * edge * (1.0 - c.strain_limit - c.record_every) < least)
-    file.refuse(
-        "Loading", "strain limit",
-        "the cell, an edge of which is " + dem::shortest(1e3 * edge) +
-            " mm, would become shorter than twice the reach of its largest grains, " +
-            dem::shortest(1e3 * least) + " mm: lower it, or take a larger cell");
+  // A confined cell is a little smaller, and the limit is checked only at the records.
+  if (0.99 * edge * (1.0 - c.strain_limit - c.record_every) < smallest)
+    file.refuse("Loading", "strain limit",
+                "the cell, whose smallest edge is " + dem::shortest(1e3 * edge) +
+                    " mm, would become shorter than its largest particles allow, " +
+                    dem::shortest(1e3 * smallest) +
+                    " mm: lower the limit, or take a larger cell");
 }
 
-/// The leg that one after these would resume.
-const dem::Leg& resumed(const std::vector<dem::Leg>& legs)
+/// The stage that a `resume` after these stages resumes.
+const dem::LoadingStage& resumed(const std::vector<dem::LoadingStage>& stages)
 {
-  const auto at = std::find_if(legs.rbegin(), legs.rend(), [](const dem::Leg& leg) {
-    return leg.kind != dem::PathKind::resume;
-  });
-  require(at != legs.rend(), "there is no leg before to resume");
+  const auto at =
+      std::find_if(stages.rbegin(), stages.rend(), [](const dem::LoadingStage& stage) {
+        return stage.kind != dem::PathKind::resume;
+      });
+  require(at != stages.rend(), "there is no stage before to resume");
   return *at;
 }
 
-/// Where another run ended, from its folder of results.
+/// Final state of another run, from its results folder.
 dem::CriticalState last_state(const CaseFile& file, const std::filesystem::path& folder)
 {
   try {
@@ -124,9 +128,9 @@ dem::CriticalState last_state(const CaseFile& file, const std::filesystem::path&
 
 } // namespace
 
-std::string key_of_leg(std::size_t k)
+std::string key_of_stage(std::size_t k)
 {
-  return "leg " + std::to_string(k + 1);
+  return "stage " + std::to_string(k + 1);
 }
 
 void declare(CaseFile& file, ElementCase& c)
@@ -142,24 +146,24 @@ void declare(CaseFile& file, ElementCase& c)
   declare_analysis(file, c);
   const auto section = file.section("Output");
   file.number("record every", c.record_every, inside(0.0, 0.1),
-              "Driven strain from one line of history.csv to the next.");
+              "Controlled strain between two lines of history.csv.");
   declare(file, c.checkpoints);
   file.choice("pictures", c.pictures,
               std::vector<std::pair<std::string, ElementCase::Pictures>>{
                   {"none", ElementCase::Pictures::none},
-                  {"legs", ElementCase::Pictures::legs},
+                  {"stages", ElementCase::Pictures::stages},
                   {"strain", ElementCase::Pictures::strain}},
-              "Of grains and bonds, for ParaView: none; at the start and where a leg ends; "
-              "or every so much strain besides.");
+              "Of particles and bonds, for ParaView: none; at the start and at the end of "
+              "each stage; or also at intervals of strain.");
   const auto only = file.only_if("pictures", {"strain"});
   file.number("picture every", c.picture_every, inside(0.0, 1.0),
-              "Strain of any edge of the cell from one picture to the next.");
+              "Strain of any edge of the cell between two pictures.");
 }
 
 void complete(CaseFile& file, ElementCase& c)
 {
   if (c.specimen.shape != SpecimenKeys::Shape::periodic_box)
-    file.refuse("Specimen", "shape", "an element test leads a `periodic box`");
+    file.refuse("Specimen", "shape", "an element test needs a `periodic box`");
   c.specimen.specimen.free_rotation = c.free_rotation;
   complete(file, c.specimen, c.contact);
   check_size(file, c);
@@ -168,20 +172,21 @@ void complete(CaseFile& file, ElementCase& c)
 
   complete(file, c.checkpoints);
   bool is_over = false;
-  for (std::size_t k = 0; k < most_legs; ++k) {
-    if (c.leg_texts[k].empty()) {
+  for (std::size_t k = 0; k < max_stages; ++k) {
+    if (c.stage_texts[k].empty()) {
       is_over = true;
       continue;
     }
     if (is_over)
-      file.refuse("Loading", key_of_leg(k), "the leg before is empty: close the gap");
+      file.refuse("Loading", key_of_stage(k),
+                  "the stage before is empty: number the stages without a gap");
     try {
-      for (const dem::Leg& leg : read_legs(c.leg_texts[k])) {
-        if (leg.kind == dem::PathKind::resume) leg.check_after(resumed(c.legs));
-        c.legs.push_back(leg);
+      for (const dem::LoadingStage& stage : read_stages(c.stage_texts[k])) {
+        if (stage.kind == dem::PathKind::resume) stage.check_after(resumed(c.stages));
+        c.stages.push_back(stage);
       }
     } catch (const std::invalid_argument& e) {
-      file.refuse("Loading", key_of_leg(k), e.what());
+      file.refuse("Loading", key_of_stage(k), e.what());
     }
   }
   std::istringstream folders(c.critical_text);
@@ -189,38 +194,39 @@ void complete(CaseFile& file, ElementCase& c)
     c.critical_states.push_back(last_state(file, folder));
 }
 
-dem::PeriodicSpecimen obtain_rock(const CaseFile& file, const ElementCase& c)
+dem::PeriodicSpecimen obtain_specimen(const CaseFile& file, const ElementCase& c)
 {
   dem::Sample sample = obtain_sample(file, c.specimen);
   return {std::move(sample.packing.particles), sample.packing.cell,
           std::move(sample.bonding.pairs)};
 }
 
-double sample_width(const ElementCase& c, const dem::PeriodicSpecimen& rock)
+double specimen_width(const ElementCase& c, const dem::PeriodicSpecimen& specimen)
 {
-  return c.size_effect.width > 0.0 ? c.size_effect.width : rock.cell.size.mean();
+  return c.size_effect.width > 0.0 ? c.size_effect.width : specimen.cell.size.mean();
 }
 
 dem::PairMaterials resolved_materials(const ElementCase& c,
-                                      const dem::PeriodicSpecimen& rock)
+                                      const dem::PeriodicSpecimen& specimen)
 {
   dem::PairMaterials m{c.bond.chosen(), c.contact};
-  const double factor = c.size_effect.factor(sample_width(c, rock));
+  const double factor = c.size_effect.factor(specimen_width(c, specimen));
   std::visit([&](auto& bond) { bond = with_strengths_times(factor, bond); }, m.bond);
   return m;
 }
 
-std::string report(const ElementCase& c, const dem::PeriodicSpecimen& rock,
+std::string report(const ElementCase& c, const dem::PeriodicSpecimen& specimen,
                    const dem::PairMaterials& materials)
 {
-  const dem::GrainRange range = dem::describe_grains(rock.particles);
+  const dem::ParticleRange range = dem::describe_particles(specimen.particles);
   std::ostringstream out;
   out.precision(4);
-  const dem::Vec3 mm = 1e3 * rock.cell.size;
-  const auto n = static_cast<double>(rock.particles.size());
-  out << "rock: " << n << " grains of " << 1e3 * range.d_min << " to " << 1e3 * range.d_max
-      << " mm in a periodic cell of " << mm.x() << " x " << mm.y() << " x " << mm.z()
-      << " mm, Z = 2 N_bonds/N = " << 2.0 * static_cast<double>(rock.bonded.size()) / n
+  const dem::Vec3 mm = 1e3 * specimen.cell.size;
+  const auto n = static_cast<double>(specimen.particles.size());
+  out << "specimen: " << n << " particles of " << 1e3 * range.d_min << " to "
+      << 1e3 * range.d_max << " mm in a periodic cell of " << mm.x() << " x " << mm.y()
+      << " x " << mm.z()
+      << " mm, Z = 2 N_bonds/N = " << 2.0 * static_cast<double>(specimen.bonded.size()) / n
       << '\n';
   const auto scaled = [&](const char* name, double at_1) {
     out << ", " << name << ' ' << 1e3 * at_1 * range.S_min;
@@ -240,12 +246,12 @@ std::string report(const ElementCase& c, const dem::PeriodicSpecimen& rock,
         << 1e-6 * b->tau_c << " MPa";
   }
   if (c.size_effect.is_on) {
-    const double B = sample_width(c, rock);
-    out << ", times " << c.size_effect.factor(B) << " for a width of " << 1e3 * B
-        << " mm (Eq. 18)";
+    const double B = specimen_width(c, specimen);
+    out << "; strengths include the size effect, times " << c.size_effect.factor(B)
+        << " at a width of " << 1e3 * B << " mm (Eq. 18)";
   } else
-    out << ", no size effect";
-  return out.str() + apps::report(c.specimen.strengths, rock.particles);
+    out << "; no size effect";
+  return out.str() + apps::report(c.specimen.strengths, specimen.particles);
 }
 
 } // namespace mergel::apps

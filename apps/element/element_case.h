@@ -1,4 +1,4 @@
-/// Case of `mergel element`: a rock, the legs it is led along, and how they are read.
+/// Case of `mergel element`: specimen, materials, loading stages and their analysis.
 #pragma once
 
 #include "apps/case/case_file.h"
@@ -28,43 +28,45 @@ struct ElementCase : dem::ElementControl {
   SizeEffectKeys size_effect;
 
   // Loading
-  std::vector<std::string> leg_texts;
+  std::vector<std::string> stage_texts;
 
   // Analysis
   double secant_from = 1e-4, secant_to = 1e-3; ///< strain [-]
   double yield_offset = 2e-4;                  ///< strain [-]
   std::string critical_text;
-  std::vector<dem::CriticalState> critical_states; ///< last states of other runs
+  std::vector<dem::CriticalState> critical_states; ///< final states of other runs
 
   // Output
-  enum class Pictures { none, legs, strain };
-  Pictures pictures = Pictures::legs;
+  enum class Pictures { none, stages, strain };
+  Pictures pictures = Pictures::stages;
   double picture_every = 1e-2; ///< strain [-]
   CheckpointKey checkpoints;
 };
 
-constexpr std::size_t most_legs = 12;
-/// "leg 1" of 0.
-std::string key_of_leg(std::size_t k);
+constexpr std::size_t max_stages = 12;
+/// "stage 1" for k = 0.
+std::string key_of_stage(std::size_t k);
 
 void declare(CaseFile& file, ElementCase& c);
 
-/// Checks that span keys; reads the legs.
+/// Reads the stages and checks conditions on several keys.
+/// @throws InputError naming file, line and key
 void complete(CaseFile& file, ElementCase& c);
 
-/// Collective. @throws InputError naming file, line and key
-dem::PeriodicSpecimen obtain_rock(const CaseFile& file, const ElementCase& c);
+/// Specimen of the case, read or made. Collective.
+/// @throws InputError naming file, line and key
+dem::PeriodicSpecimen obtain_specimen(const CaseFile& file, const ElementCase& c);
 
-/// B of the size effect [m]: its key, or the mean edge of the cell.
-double sample_width(const ElementCase& c, const dem::PeriodicSpecimen& rock);
+/// Width B of the size effect [m]: its key, or the mean edge of the cell.
+double specimen_width(const ElementCase& c, const dem::PeriodicSpecimen& specimen);
 
-/// The materials of the run: the keys' values at S = 1, with the size effect applied to the
-/// strengths. Upscaling (Eq. 8) is the grains' own: a pair takes u_c and g_a times its S.
+/// The materials of the run at S = 1, with the size effect applied to the strengths. The
+/// upscaling (Eq. 8) is not in them: a pair multiplies u_c and g_a by its S.
 dem::PairMaterials resolved_materials(const ElementCase& c,
-                                      const dem::PeriodicSpecimen& rock);
+                                      const dem::PeriodicSpecimen& specimen);
 
-/// What was resolved, in words.
-std::string report(const ElementCase& c, const dem::PeriodicSpecimen& rock,
+/// Text on the specimen and the resolved materials.
+std::string report(const ElementCase& c, const dem::PeriodicSpecimen& specimen,
                    const dem::PairMaterials& materials);
 
 } // namespace mergel::apps

@@ -16,13 +16,13 @@ namespace {
 
 const std::vector<std::string> columns{
     "time [s]",
-    "leg [-]",
+    "stage [-]",
     "axial strain [-]",
     "lateral strain [-]",
     "volumetric strain [-]",
-    "axial strain of the leg [-]",
-    "volumetric strain of the leg [-]",
-    "driven strain of the leg [-]",
+    "axial strain of the stage [-]",
+    "volumetric strain of the stage [-]",
+    "controlled strain of the stage [-]",
     "strain x [-]",
     "strain y [-]",
     "axial stress [Pa]",
@@ -32,7 +32,7 @@ const std::vector<std::string> columns{
     "q [Pa]",
     "axial traction on the faces [Pa]",
     "lateral traction on the faces [Pa]",
-    "skew share of the stress [-]",
+    "antisymmetric part of the stress [-]",
     "void ratio [-]",
     "porosity [-]",
     "broken bonds [-]",
@@ -61,14 +61,14 @@ const std::vector<std::string> columns{
     "elastic energy of contacts [J]",
     "kinetic energy [J]",
     "bond plasticity and damage [J]",
-    "left in broken bonds [J]",
+    "energy released at bond breakage [J]",
     "friction [J]",
     "damping [J]",
-    "held spins [J]",
+    "rotation-constraint loss [J]",
     "boundary work [J]",
     "energy error [-]",
     "inertial number [-]",
-    "unbalanced ratio [-]",
+    "unbalanced-force ratio [-]",
 };
 
 double count(std::size_t n)
@@ -99,7 +99,7 @@ ElementHistory::ElementHistory(const std::filesystem::path& file,
 {
 }
 
-void ElementHistory::put(dem::State& state, const ElementHistory* history)
+void ElementHistory::save(dem::State& state, const ElementHistory* history)
 {
   const dem::HistoryMark mark = history ? history->history_.mark() : dem::HistoryMark{};
   state.add_common<std::uint64_t>("output_history", {mark.bytes, mark.sum});
@@ -113,16 +113,16 @@ void ElementHistory::check(const std::filesystem::path& file, const dem::State& 
 void ElementHistory::add(const dem::ElementRecord& r)
 {
   const dem::CellAverages& a = r.averages;
-  const dem::EnergyBook& e = r.book;
+  const dem::EnergyBalance& e = r.balance;
   const dem::Mat3 &b = a.bond_fabric, &k = a.contact_fabric;
   history_.add({r.time,
-                count(r.leg + 1),
+                count(r.stage + 1),
                 r.whole.axial_strain(),
                 r.whole.lateral_strain(),
                 r.whole.volumetric_strain(),
-                r.of_leg.axial_strain(),
-                r.of_leg.volumetric_strain(),
-                r.driven_strain,
+                r.of_stage.axial_strain(),
+                r.of_stage.volumetric_strain(),
+                r.controlled_strain,
                 r.whole.strain.x(),
                 r.whole.strain.y(),
                 -a.stress(2, 2),
@@ -132,7 +132,7 @@ void ElementHistory::add(const dem::ElementRecord& r)
                 r.whole.q(),
                 -a.traction.z(),
                 -0.5 * (a.traction.x() + a.traction.y()),
-                a.skew,
+                a.antisymmetric,
                 a.void_ratio,
                 a.porosity,
                 count(r.broken),
@@ -161,10 +161,10 @@ void ElementHistory::add(const dem::ElementRecord& r)
                 e.contacts,
                 e.kinetic,
                 e.plastic,
-                e.residue,
+                e.breakage_release,
                 e.slip,
                 e.damping,
-                e.lock,
+                e.rotation_constraint,
                 e.cell_work,
                 r.energy_error,
                 r.inertial_number,
@@ -173,23 +173,23 @@ void ElementHistory::add(const dem::ElementRecord& r)
 
 namespace {
 
-/// What is read off a leg: its records and those of the legs that resume it, without the
-/// approach and without the loops of unloading and reloading.
+/// Curve of a stage for the analysis: its records and those of the stages that resume it,
+/// without the approach and without the loops of unloading and reloading.
 class Backbone {
 public:
   Backbone(const std::vector<dem::ElementRecord>& records, std::size_t first,
            std::size_t last)
   {
     for (const dem::ElementRecord& r : records) {
-      if (r.leg < first || r.leg > last || r.is_approach) continue;
-      if (r.leg == first) direction_ = r.driven_strain < 0.0 ? -1.0 : 1.0;
+      if (r.stage < first || r.stage > last || r.is_approach) continue;
+      if (r.stage == first) direction_ = r.controlled_strain < 0.0 ? -1.0 : 1.0;
     }
-    double farthest = -1.0;
+    double largest_progress = -1.0;
     for (const dem::ElementRecord& r : records) {
-      if (r.leg < first || r.leg > last || r.is_approach) continue;
-      if (direction_ * r.driven_strain <= farthest) continue;
-      farthest = direction_ * r.driven_strain;
-      states_.push_back(r.of_leg);
+      if (r.stage < first || r.stage > last || r.is_approach) continue;
+      if (direction_ * r.controlled_strain <= largest_progress) continue;
+      largest_progress = direction_ * r.controlled_strain;
+      states_.push_back(r.of_stage);
     }
   }
 
@@ -197,7 +197,7 @@ public:
   double direction() const { return direction_; } ///< 1 compression, -1 extension
   const std::vector<dem::SoilState>& states() const { return states_; }
 
-  /// Both positive along the leg: an extension is turned round.
+  /// Strain and stress, both with the sign changed in extension.
   template <class Strain, class Stress>
   dem::Curve curve(Strain&& strain, Stress&& stress) const
   {
@@ -214,7 +214,7 @@ private:
   std::vector<dem::SoilState> states_;
 };
 
-/// Names of what is read off one curve.
+/// Names of the results of one curve.
 struct CurveNames {
   const char *modulus, *yield, *peak;
 };
@@ -224,7 +224,7 @@ void read_off(std::vector<Finding>& found, const ElementCase& c, const dem::Curv
 {
   const auto E = dem::secant(curve, c.secant_from, c.secant_to);
   if (E) found.push_back({names.modulus, "Pa", *E});
-  if (!(dem::peak(curve).stress > 0.0)) return; // stress is taken off: no strength in that
+  if (!(dem::peak(curve).stress > 0.0)) return; // unloading: no strength
   if (E) {
     if (const auto y = dem::offset_yield(curve, *E, c.yield_offset, c.secant_from)) {
       found.push_back({names.yield, "Pa", y->stress});
@@ -264,25 +264,25 @@ double mean_pressure(State s)
   return s.p();
 }
 
-void read_poisson(std::vector<Finding>& found, const ElementCase& c, const Backbone& leg)
+void read_poisson(std::vector<Finding>& found, const ElementCase& c, const Backbone& stage)
 {
   const auto swelling =
-      leg.curve(axial_strain, [](State s) { return -s.lateral_strain(); });
+      stage.curve(axial_strain, [](State s) { return -s.lateral_strain(); });
   if (const auto nu = dem::secant(swelling, c.secant_from, c.secant_to))
     found.push_back({"Poisson's ratio", "-", *nu});
 }
 
-/// In extension q, and with it the ratio, is negative. Where p is next to nothing, so is its
-/// meaning as a divisor.
-void read_stress_ratio(std::vector<Finding>& found, const Backbone& leg)
+/// In extension q and q/p are negative. States with p below 1 % of its largest value are
+/// left out.
+void read_stress_ratio(std::vector<Finding>& found, const Backbone& stage)
 {
   double eta_peak = 0.0, p_most = 0.0;
-  for (const dem::SoilState& s : leg.states()) p_most = std::max(p_most, s.p());
-  for (const dem::SoilState& s : leg.states())
+  for (const dem::SoilState& s : stage.states()) p_most = std::max(p_most, s.p());
+  for (const dem::SoilState& s : stage.states())
     if (s.p() > 0.01 * p_most && std::abs(s.q() / s.p()) > std::abs(eta_peak))
       eta_peak = s.q() / s.p();
   found.push_back({"largest q/p", "-", eta_peak});
-  const dem::SoilState& end = leg.states().back();
+  const dem::SoilState& end = stage.states().back();
   if (!(end.p() > 0.01 * p_most)) return;
   found.push_back({"q/p at the end", "-", end.q() / end.p()});
   if (end.stress.maxCoeff() + end.stress.minCoeff() > 0.0)
@@ -291,23 +291,23 @@ void read_stress_ratio(std::vector<Finding>& found, const Backbone& leg)
 }
 
 void read_resumed(std::vector<Finding>& found,
-                  const std::vector<dem::ElementRecord>& records, std::size_t leg)
+                  const std::vector<dem::ElementRecord>& records, std::size_t stage)
 {
-  const auto is_of = [&](const dem::ElementRecord& r) { return r.leg == leg; };
+  const auto is_of = [&](const dem::ElementRecord& r) { return r.stage == stage; };
   const auto first = std::find_if(records.begin(), records.end(), is_of);
   const auto last = std::find_if(records.rbegin(), records.rend(), is_of);
   if (first == records.end()) return;
-  const dem::SoilState &a = first->of_leg, &b = last->of_leg;
+  const dem::SoilState &a = first->of_stage, &b = last->of_stage;
   if (a.axial_strain() != b.axial_strain())
-    found.push_back({"secant modulus of the leg", "Pa",
+    found.push_back({"secant modulus of the stage", "Pa",
                      (b.axial() - a.axial()) / (b.axial_strain() - a.axial_strain())});
 }
 
-void read_path(std::vector<Finding>& found, const ElementCase& c, const dem::Leg& leg,
-               const Backbone& way)
+void read_path(std::vector<Finding>& found, const ElementCase& c,
+               const dem::LoadingStage& stage, const Backbone& way)
 {
   const bool is_extension = way.direction() < 0.0;
-  switch (leg.kind) {
+  switch (stage.kind) {
   case dem::PathKind::isotropic:
     read_off(found, c, way.curve(volumetric_strain, mean_pressure),
              {"bulk modulus", "isotropic yield", "largest p"});
@@ -333,8 +333,8 @@ void read_path(std::vector<Finding>& found, const ElementCase& c, const dem::Leg
     read_poisson(found, c, way);
     read_stress_ratio(found, way);
     break;
-  case dem::PathKind::radial: // by p, or by q where p stays
-    if (std::isinf(leg.slope))
+  case dem::PathKind::radial: // p, or q where p is constant
+    if (std::isinf(stage.slope))
       read_off(found, c, way.curve(axial_strain, deviator),
                {"dq over axial strain", "q at yield", "largest q"});
     else
@@ -344,11 +344,13 @@ void read_path(std::vector<Finding>& found, const ElementCase& c, const dem::Leg
     break;
   case dem::PathKind::axes:
     for (int a = 0; a < 3; ++a)
-      if (leg.axes[static_cast<std::size_t>(a)].kind == dem::AxisRule::Kind::driven)
+      if (stage.axes[static_cast<std::size_t>(a)].kind ==
+          dem::AxisRule::Kind::strain_controlled)
         read_off(found, c,
                  way.curve([a](State s) { return s.strain[a]; },
                            [a](State s) { return s.stress[a]; }),
-                 {"modulus along the driven axis", "stress at yield", "largest stress"});
+                 {"modulus along the strain-controlled axis", "stress at yield",
+                  "largest stress"});
     read_stress_ratio(found, way);
     break;
   case dem::PathKind::resume:
@@ -358,23 +360,24 @@ void read_path(std::vector<Finding>& found, const ElementCase& c, const dem::Leg
 
 } // namespace
 
-std::vector<LegResult> analyse(const ElementCase& c,
-                               const std::vector<dem::Outcome>& outcomes,
-                               const std::vector<dem::ElementRecord>& records)
+std::vector<StageResult> analyse(const ElementCase& c,
+                                 const std::vector<dem::Outcome>& outcomes,
+                                 const std::vector<dem::ElementRecord>& records)
 {
-  std::vector<LegResult> results;
+  std::vector<StageResult> results;
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
-    const dem::Leg& leg = c.legs[k];
-    LegResult result{name_of(leg), outcomes[k], {}};
-    if (leg.kind == dem::PathKind::resume) {
+    const dem::LoadingStage& stage = c.stages[k];
+    StageResult result{name_of(stage), outcomes[k], {}};
+    if (stage.kind == dem::PathKind::resume) {
       read_resumed(result.findings, records, k);
     } else {
       std::size_t last = k;
-      while (last + 1 < outcomes.size() && c.legs[last + 1].kind == dem::PathKind::resume)
+      while (last + 1 < outcomes.size() && c.stages[last + 1].kind == dem::PathKind::resume)
         ++last;
-      if (last > k) result.name += ", and with leg " + std::to_string(last + 1) + " on";
+      if (last > k)
+        result.name += ", analysed with the stages up to " + std::to_string(last + 1);
       const Backbone way(records, k, last);
-      if (!way.is_empty()) read_path(result.findings, c, leg, way);
+      if (!way.is_empty()) read_path(result.findings, c, stage, way);
     }
     results.push_back(std::move(result));
   }
@@ -398,12 +401,12 @@ void write_summary(const std::filesystem::path& file, const ElementCase& c,
   };
   out << "{\n";
   if (!failure.empty()) out << "  \"failure\": " << in_json(failure) << ",\n";
-  out << "  \"legs\": [";
+  out << "  \"stages\": [";
   const char* comma = "\n";
-  for (const LegResult& leg : s.legs) {
-    out << comma << "    {\n      \"leg\": \"" << leg.name << "\",\n      \"outcome\": \""
-        << dem::sentence_of(leg.outcome) << "\"";
-    for (const Finding& f : leg.findings)
+  for (const StageResult& stage : s.stages) {
+    out << comma << "    {\n      \"stage\": \"" << stage.name
+        << "\",\n      \"outcome\": \"" << dem::sentence_of(stage.outcome) << "\"";
+    for (const Finding& f : stage.findings)
       out << ",\n      \"" << f.name << " [" << f.unit << "]\": " << dem::shortest(f.value);
     out << "\n    }";
     comma = ",\n";
@@ -425,10 +428,10 @@ void write_summary(const std::filesystem::path& file, const ElementCase& c,
   const char* modes[] = {"tension", "compression", "shear", "bending"};
   for (std::size_t k = 0; k < dem::n_break_modes; ++k)
     number(std::string("broken in ") + modes[k] + " [-]", count(s.last.broken_by[k]));
-  number("boundary work [J]", s.last.book.cell_work);
+  number("boundary work [J]", s.last.balance.cell_work);
   number("largest energy error [-]", s.worst_energy_error);
-  number("largest strain rate [1/s]", s.greatest_rate);
-  number("largest inertial number [-]", s.greatest_inertial_number);
+  number("largest strain rate [1/s]", s.largest_rate);
+  number("largest inertial number [-]", s.largest_inertial_number);
   number("rates cut at their limit [-]", count(s.n_limited));
   number("particles [-]", count(s.n_particles));
   number("steps [-]", count(s.n_steps));
@@ -444,10 +447,11 @@ void print_summary(const std::filesystem::path& file, const ElementSummary& s)
   std::ostream& out = std::cout;
   out.precision(4);
   out << '\n';
-  for (std::size_t k = 0; k < s.legs.size(); ++k) {
-    const LegResult& leg = s.legs[k];
-    out << "leg " << k + 1 << ", " << leg.name << ": " << dem::sentence_of(leg.outcome);
-    for (const Finding& f : leg.findings) {
+  for (std::size_t k = 0; k < s.stages.size(); ++k) {
+    const StageResult& stage = s.stages[k];
+    out << "stage " << k + 1 << ", " << stage.name << ": "
+        << dem::sentence_of(stage.outcome);
+    for (const Finding& f : stage.findings) {
       const bool is_stress = f.unit == "Pa";
       out << "; " << f.name << ' ' << (is_stress ? 1e-6 * f.value : f.value)
           << (is_stress       ? " MPa"
@@ -465,14 +469,14 @@ void print_summary(const std::filesystem::path& file, const ElementSummary& s)
     out << "critical states of " << s.critical.states.size()
         << " runs: e = " << s.critical.line->intercept << " - " << -s.critical.line->slope
         << " (p/p_a)^0.7, R2 " << s.critical.line->R2 << '\n';
-  out << "energy book closes to " << s.worst_energy_error
-      << " of the work; strain rate up to " << s.greatest_rate
-      << " 1/s, inertial number up to " << s.greatest_inertial_number;
-  if (s.n_limited > 0) out << "; " << s.n_limited << " rates met the limit of the servo";
+  out << "largest energy error " << s.worst_energy_error
+      << " of the work; strain rate up to " << s.largest_rate
+      << " 1/s, inertial number up to " << s.largest_inertial_number;
+  if (s.n_limited > 0) out << "; " << s.n_limited << " rates were limited by the servo";
   out << "\n"
-      << s.n_particles << " grains, " << s.n_steps << " steps, "
+      << s.n_particles << " particles, " << s.n_steps << " steps, "
       << 1e9 * s.seconds / static_cast<double>(s.n_steps * s.n_particles)
-      << " ns a grain and step, whole run " << duration_text(s.seconds)
+      << " ns per particle and step, whole run " << duration_text(s.seconds)
       << "\nresults: " << folder << " (history.csv, " << file.filename().string()
       << "); pictures: mergel-view " << folder << '\n';
 }

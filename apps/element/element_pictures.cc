@@ -13,10 +13,10 @@ namespace {
 const std::vector<Frames::Kind> kinds{{"particles", "vtp"}, {"bonds", "vtp"}};
 
 /// Rows of the tensors, tension positive.
-dem::Field stress_field(const dem::Rock& rock)
+dem::Field stress_field(const dem::Assembly& assembly)
 {
   dem::Field field{"stress", 9, {}};
-  for (const dem::Mat3& sigma : dem::grain_stresses(rock))
+  for (const dem::Mat3& sigma : dem::particle_stresses(assembly))
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) field.values.push_back(sigma(a, b));
   return field;
@@ -27,10 +27,10 @@ dem::Field stress_field(const dem::Rock& rock)
 ElementPictures::ElementPictures(const std::filesystem::path& folder, const ElementCase& c,
                                  dem::ElementTest& run)
     : when_(c.pictures), every_(c.picture_every), run_(run),
-      size_taken_(run.rock().cell.size)
+      size_last_(run.assembly().cell.size)
 {
   on_first_rank([&] { frames_.emplace(folder, kinds); });
-  if (when_ != ElementCase::Pictures::none) take();
+  if (when_ != ElementCase::Pictures::none) take_picture();
 }
 
 ElementPictures::ElementPictures(const std::filesystem::path& folder, const ElementCase& c,
@@ -41,21 +41,21 @@ ElementPictures::ElementPictures(const std::filesystem::path& folder, const Elem
 {
   const auto& x = state.get<double>("picture_x_0", 3);
   for (std::size_t k = 0; k < x.size(); k += 3) x_0_.emplace_back(x[k], x[k + 1], x[k + 2]);
-  if (!x_0_.empty() && x_0_.size() != run.rock().particles.size())
-    dem::State::refuse("picture_x_0", "is of other grains");
+  if (!x_0_.empty() && x_0_.size() != run.assembly().particles.size())
+    dem::State::refuse("picture_x_0", "has another number of particles");
   const auto& size = state.get_rows<double>("picture_size", 3);
-  size_taken_ = {size[0], size[1], size[2]};
+  size_last_ = {size[0], size[1], size[2]};
   on_first_rank([&] { frames_.emplace(folder, kinds, earlier, state); });
 }
 
-void ElementPictures::put(dem::State& state) const
+void ElementPictures::save(dem::State& state) const
 {
   std::vector<double> x;
   for (const dem::Vec3& x_0 : x_0_) x.insert(x.end(), {x_0.x(), x_0.y(), x_0.z()});
   state.add_common("picture_x_0", std::move(x), 3);
   state.add_common<double>("picture_size",
-                           {size_taken_.x(), size_taken_.y(), size_taken_.z()});
-  Frames::put(state, frames_ ? &*frames_ : nullptr);
+                           {size_last_.x(), size_last_.y(), size_last_.z()});
+  Frames::save(state, frames_ ? &*frames_ : nullptr);
 }
 
 void ElementPictures::check(const std::filesystem::path& folder, const dem::State& state)
@@ -63,24 +63,24 @@ void ElementPictures::check(const std::filesystem::path& folder, const dem::Stat
   Frames::check(folder, kinds, state);
 }
 
-void ElementPictures::look(bool leg_ends)
+void ElementPictures::update(bool stage_ends)
 {
   if (when_ == ElementCase::Pictures::none) return;
-  const dem::Vec3 grown = run_.rock().cell.size.cwiseQuotient(size_taken_);
+  const dem::Vec3 grown = run_.assembly().cell.size.cwiseQuotient(size_last_);
   const bool is_strained = when_ == ElementCase::Pictures::strain &&
                            grown.array().log().abs().maxCoeff() >= every_;
-  if (leg_ends || is_strained) take();
+  if (stage_ends || is_strained) take_picture();
 }
 
-void ElementPictures::take()
+void ElementPictures::take_picture()
 {
-  const dem::Rock rock = dem::whole(run_.rock());
+  const dem::Assembly assembly = dem::gather(run_.assembly());
   if (x_0_.empty())
-    for (const dem::Body& b : rock.particles.body) x_0_.push_back(b.x);
-  size_taken_ = rock.cell.size;
+    for (const dem::ParticleState& b : assembly.particles.state) x_0_.push_back(b.x);
+  size_last_ = assembly.cell.size;
   on_first_rank([&] {
-    dem::write_particles(frames_->file(0), rock, x_0_, {stress_field(rock)});
-    dem::write_bonds(frames_->file(1), rock);
+    dem::write_particles(frames_->file(0), assembly, x_0_, {stress_field(assembly)});
+    dem::write_bonds(frames_->file(1), assembly);
     frames_->add(run_.state().time);
   });
 }

@@ -1,4 +1,4 @@
-/// Pictures of an element test for ParaView: its grains and bonds, as a series in time.
+/// Pictures of an element test for ParaView: its particles and bonds, as a series in time.
 #pragma once
 
 #include "apps/element/element_case.h"
@@ -16,30 +16,32 @@ namespace mergel::apps {
 /// bonds.pvd. Displacements count from the first picture.
 class ElementPictures {
 public:
-  /// The rock before the first leg is the first picture. Collective, as is look().
+  /// Takes the first picture, of the assembly before the first stage. Collective, as is
+  /// update().
   ElementPictures(const std::filesystem::path& folder, const ElementCase& c,
                   dem::ElementTest& run);
-  /// Go on with those that `earlier`, which may be the same folder, held when put() wrote
-  /// `state`.
+  /// Continue the pictures that the folder `earlier`, which may be `folder`, held when
+  /// save() wrote `state`.
   ElementPictures(const std::filesystem::path& folder, const ElementCase& c,
                   dem::ElementTest& run, const std::filesystem::path& earlier,
                   const dem::State& state);
 
-  /// Take a picture where one is due: a leg ends, or an edge was strained by so much.
-  void look(bool leg_ends);
+  /// Take a picture where one is due: at the end of a stage, or after an edge was strained
+  /// by `picture every`.
+  void update(bool stage_ends);
 
-  void put(dem::State& state) const;
+  void save(dem::State& state) const;
   /// @throws InputError when the files of `folder` do not go as far as `state` says
   static void check(const std::filesystem::path& folder, const dem::State& state);
 
 private:
-  void take();
+  void take_picture();
 
   ElementCase::Pictures when_;
   double every_;
   dem::ElementTest& run_;
   std::vector<dem::Vec3> x_0_;   ///< of the first picture [m]
-  dem::Vec3 size_taken_;         ///< of the cell in the last one [m]
+  dem::Vec3 size_last_;          ///< edges of the cell in the last picture [m]
   std::optional<Frames> frames_; ///< on the first rank
 };
 

@@ -1,4 +1,4 @@
-/// The state of an element test and what it has recorded, as named arrays, and back.
+/// Saving and loading an element test and its records as named arrays.
 #pragma once
 
 #include "apps/element/element_case.h"
@@ -7,13 +7,13 @@
 
 namespace mergel::apps {
 
-/// Each rank its part. Collective.
-void put(dem::State& state, const dem::ElementState& s);
+/// Add the state of the test, each rank its part. Collective.
+void save(dem::State& state, const dem::ElementState& s);
 /// @throws InputError when the state is of another case
-dem::ElementState take_element(dem::State& state, const ElementCase& c);
+dem::ElementState load_element(dem::State& state, const ElementCase& c);
 
-/// What was recorded so far, for the analysis of the legs.
-void put(dem::State& state, const std::vector<dem::ElementRecord>& records);
-std::vector<dem::ElementRecord> take_records(const dem::State& state);
+/// Add the records so far, for the analysis of the stages.
+void save(dem::State& state, const std::vector<dem::ElementRecord>& records);
+std::vector<dem::ElementRecord> load_records(const dem::State& state);
 
 } // namespace mergel::apps

@@ -13,17 +13,16 @@
 
 namespace mergel::apps {
 
-const char* const forms_of_leg =
+const char* const forms_of_stage =
     "isotropic | oedometer | triaxial [at STRESS] | radial dq/dp = NUMBER or inf | "
-    "compression | "
-    "tension | axes x = RULE, y = RULE, z = RULE (one `driven`, the others `fixed` or a "
-    "STRESS) | resume | unload | reload | unload-reload, then `to` and where it ends: p, "
-    "q, axial stress, lateral stress, axial strain, volumetric strain, x stress, y stress, "
-    "x strain or y strain = VALUE";
+    "compression | tension | axes x = RULE, y = RULE, z = RULE (one `strain-controlled`, "
+    "the others `fixed` or a STRESS) | resume | unload | reload | unload-reload, then `to` "
+    "and the target: p, q, axial stress, lateral stress, axial strain, volumetric strain, "
+    "x stress, y stress, x strain or y strain = VALUE";
 
 namespace {
 
-using dem::Leg;
+using dem::LoadingStage;
 using dem::PathKind;
 using dem::Quantity;
 
@@ -85,7 +84,7 @@ double strain(std::string text)
   return to_si(std::string(trimmed(text)), "1") / per;
 }
 
-/// "name = value" taken apart.
+/// Both sides of "name = value".
 std::pair<std::string, std::string> assignment(const std::string& text,
                                                const std::string& example)
 {
@@ -96,14 +95,15 @@ std::pair<std::string, std::string> assignment(const std::string& text,
           std::string(trimmed(text.substr(at + 1)))};
 }
 
-/// "x = fixed, y = 0.5 MPa, z = driven"
+/// "x = fixed, y = 0.5 MPa, z = strain-controlled"
 std::array<dem::AxisRule, 3> read_rules(const std::string& text)
 {
   std::array<dem::AxisRule, 3> rules;
   std::string seen;
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, ',');) {
-    const auto [axis, rule] = assignment(std::string(trimmed(part)), "z = driven");
+    const auto [axis, rule] =
+        assignment(std::string(trimmed(part)), "z = strain-controlled");
     if (axis.size() != 1 || axis < "x" || axis > "z")
       throw InputError("an axis is x, y or z, not " + in_quotes(axis));
     if (seen.find(axis) != std::string::npos)
@@ -111,85 +111,87 @@ std::array<dem::AxisRule, 3> read_rules(const std::string& text)
     seen += axis;
     dem::AxisRule& r = rules[static_cast<std::size_t>(axis[0] - 'x')];
     if (rule == "driven")
-      r.kind = dem::AxisRule::Kind::driven;
+      throw InputError("the rule `driven` is now `strain-controlled`. Rename it");
+    if (rule == "strain-controlled")
+      r.kind = dem::AxisRule::Kind::strain_controlled;
     else if (rule != "fixed")
-      r = {dem::AxisRule::Kind::held, stress(rule)};
+      r = {dem::AxisRule::Kind::stress_controlled, stress(rule)};
   }
   if (seen.size() != 3)
     throw InputError("expected a rule for each axis, such as " +
-                     in_quotes("axes x = fixed, y = 0.5 MPa, z = driven"));
+                     in_quotes("axes x = fixed, y = 0.5 MPa, z = strain-controlled"));
   return rules;
 }
 
-/// What stands between the kind and "to".
-void read_details(Leg& leg, const std::string& kind, const std::string& details)
+/// Read the text between the kind and "to".
+void read_details(LoadingStage& stage, const std::string& kind, const std::string& details)
 {
   if (kind == "radial") {
     const auto [name, value] = assignment(details, "dq/dp = 1.5");
     if (name != "dq/dp")
-      throw InputError("a radial leg wants " + in_quotes("dq/dp = NUMBER") +
+      throw InputError("a radial stage needs " + in_quotes("dq/dp = NUMBER") +
                        " before `to`");
-    leg.slope =
+    stage.slope =
         value == "inf" ? std::numeric_limits<double>::infinity() : to_si(value, "1");
   } else if (kind == "triaxial" && details.starts_with("at ")) {
-    leg.has_lateral = true;
-    leg.lateral = stress(std::string(trimmed(details.substr(3))));
+    stage.has_lateral = true;
+    stage.lateral = stress(std::string(trimmed(details.substr(3))));
   } else if (kind == "axes") {
-    leg.axes = read_rules(details);
+    stage.axes = read_rules(details);
   } else if (!details.empty())
     throw InputError(in_quotes(details) + " is not understood after " + in_quotes(kind) +
-                     "; a leg reads: " + forms_of_leg);
+                     "; a stage reads: " + forms_of_stage);
 }
 
 } // namespace
 
-std::vector<Leg> read_legs(const std::string& text)
+std::vector<LoadingStage> read_stages(const std::string& text)
 {
   const std::string padded = text + " ";
   const auto to = padded.find(" to ");
   if (to == std::string::npos)
-    throw InputError(std::string("there is no `to`; a leg reads: ") + forms_of_leg);
+    throw InputError(std::string("there is no `to`; a stage reads: ") + forms_of_stage);
   const std::string head(trimmed(padded.substr(0, to)));
   const auto blank = std::min(head.find(' '), head.size());
   const std::string kind = head.substr(0, blank);
 
-  Leg leg;
-  leg.kind = chosen(kind, kinds, "the kind of leg");
-  read_details(leg, kind, std::string(trimmed(head.substr(blank))));
+  LoadingStage stage;
+  stage.kind = chosen(kind, kinds, "the kind of stage");
+  read_details(stage, kind, std::string(trimmed(head.substr(blank))));
   const auto [name, value] =
       assignment(std::string(trimmed(padded.substr(to + 4))), "axial strain = 2 %");
-  leg.quantity = chosen(name, quantities, "the quantity");
-  leg.goal = dem::is_strain(leg.quantity) ? strain(value) : stress(value);
-  if (leg.kind != PathKind::resume) leg.check(); // else by the leg that it resumes
-  if (kind != "unload-reload") return {leg};
-  Leg back = leg;
+  stage.quantity = chosen(name, quantities, "the quantity");
+  stage.target = dem::is_strain(stage.quantity) ? strain(value) : stress(value);
+  if (stage.kind != PathKind::resume) stage.check(); // else by the stage that it resumes
+  if (kind != "unload-reload") return {stage};
+  LoadingStage back = stage;
   back.returns = true;
-  return {leg, back};
+  return {stage, back};
 }
 
-std::string name_of(const Leg& leg)
+std::string name_of(const LoadingStage& stage)
 {
   std::string text = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) {
-                       return k.second == leg.kind;
+                       return k.second == stage.kind;
                      })->first;
-  if (leg.kind == PathKind::radial) text += " dq/dp = " + dem::shortest(leg.slope);
-  if (leg.kind == PathKind::axes)
+  if (stage.kind == PathKind::radial) text += " dq/dp = " + dem::shortest(stage.slope);
+  if (stage.kind == PathKind::axes)
     for (std::size_t a = 0; a < 3; ++a) {
       using Kind = dem::AxisRule::Kind;
-      const dem::AxisRule& r = leg.axes[a];
+      const dem::AxisRule& r = stage.axes[a];
       text += (a > 0 ? ", " : " ") + std::string(1, "xyz"[a]) + " = " +
-              (r.kind == Kind::driven  ? "driven"
-               : r.kind == Kind::fixed ? "fixed"
-                                       : with_unit(r.stress, "Pa", "MPa"));
+              (r.kind == Kind::strain_controlled ? "strain-controlled"
+               : r.kind == Kind::fixed           ? "fixed"
+                                                 : with_unit(r.stress, "Pa", "MPa"));
     }
-  if (leg.has_lateral) text += " at " + with_unit(leg.lateral, "Pa", "MPa");
-  if (leg.returns) return text + " to where it was unloaded";
+  if (stage.has_lateral) text += " at " + with_unit(stage.lateral, "Pa", "MPa");
+  if (stage.returns) return text + " to where it was unloaded";
   text += " to " + std::find_if(quantities.begin(), quantities.end(), [&](const auto& q) {
-                     return q.second == leg.quantity;
+                     return q.second == stage.quantity;
                    })->first;
   return text + " = " +
-         (dem::is_strain(leg.quantity) ? dem::shortest(100.0 * leg.goal) + " %"
-                                       : with_unit(leg.goal, "Pa", "MPa"));
+         (dem::is_strain(stage.quantity) ? dem::shortest(100.0 * stage.target) + " %"
+                                         : with_unit(stage.target, "Pa", "MPa"));
 }
 
 } // namespace mergel::apps

@@ -1,10 +1,10 @@
-/// The legs of an element test as a case file writes them, one a key:
+/// The loading stages of an element test as written in a case file, one per key:
 ///
-///     set leg 1 = isotropic to p = 1 MPa
-///     set leg 2 = triaxial to axial strain = 2 %
-///     set leg 3 = unload-reload to q = 0.2 MPa
-///     set leg 4 = resume to axial strain = 15 %
-///     set leg 5 = axes x = fixed, y = 0.5 MPa, z = driven to axial strain = 20 %
+///     set stage 1 = isotropic to p = 1 MPa
+///     set stage 2 = triaxial to axial strain = 2 %
+///     set stage 3 = unload-reload to q = 0.2 MPa
+///     set stage 4 = resume to axial strain = 15 %
+///     set stage 5 = axes x = fixed, y = 1 MPa, z = strain-controlled to axial strain = 2 %
 #pragma once
 
 #include "dem/element/stress_path.h"
@@ -14,14 +14,14 @@
 
 namespace mergel::apps {
 
-/// The forms that a leg may have, a line each; for the help.
-extern const char* const forms_of_leg;
+/// The forms that a stage may have, for help and messages.
+extern const char* const forms_of_stage;
 
-/// Legs of one key: one, or two of unload-reload.
-/// @throws InputError saying what is wrong and what is expected; it does not repeat the text
-std::vector<dem::Leg> read_legs(const std::string& text);
+/// Stages of one key: one, or two for unload-reload.
+/// @throws InputError with the error and the expected form; it does not repeat the text
+std::vector<dem::LoadingStage> read_stages(const std::string& text);
 
 /// "isotropic to p = 1 MPa"; for logs.
-std::string name_of(const dem::Leg& leg);
+std::string name_of(const dem::LoadingStage& stage);
 
 } // namespace mergel::apps

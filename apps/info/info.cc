@@ -1,5 +1,5 @@
-/// mergel info: what a sample, a checkpoint or a results folder is, and whether it is
-/// whole.
+/// mergel info: describes a sample, a checkpoint or a results folder, and checks that it is
+/// complete.
 #include "apps/case/case_scan.h"
 #include "apps/element/element_output.h"
 #include "apps/element/element_pictures.h"
@@ -62,14 +62,14 @@ void describe_checkpoint(const fs::path& file)
     return found == c.state.arrays().end() ? 0 : found->second.rows();
   };
   std::cout << file.string() << ": checkpoint\n";
-  line("job", "mergel " + c.label.job + ", " + c.label.stage);
+  line("job", "mergel " + c.label.job + ", " + c.label.phase);
   line("step", std::to_string(c.label.step));
   line("time", dem::shortest(1e3 * c.label.time) + " ms");
   line("particles", std::to_string(rows("grains")));
   line("bonds",
-       std::to_string(rows("bond_pairs")) + " between grains, " +
+       std::to_string(rows("bond_pairs")) + " between particles, " +
            std::to_string(c.state.get<std::uint64_t>("bonds_broken_and_yielded")[0]) +
-           " of all broken");
+           " of all bonds broken");
   line("contacts", std::to_string(rows("contact_pairs")) + " with shear");
   line("case", std::to_string(scan_case(c.label.case_text, "its case").entries.size()) +
                    " keys, inside");
@@ -83,14 +83,14 @@ void describe_sample(const fs::path& file)
   const dem::Sample s = dem::read_sample(file);
   std::cout << file.string() << ": sample\n";
   line("particles", std::to_string(s.packing.particles.size()));
-  line("bonds", std::to_string(s.bonding.pairs.size()) + " between grains");
+  line("bonds", std::to_string(s.bonding.pairs.size()) + " between particles");
   line("porosity", dem::shortest(s.packing.porosity) + " in the core, " +
-                       dem::shortest(s.packing.whole_porosity) + " in all");
+                       dem::shortest(s.packing.whole_porosity) + " in the whole region");
   for (const auto& [key, value] : s.recipe) line(key, value);
   line("health", "good, checksum right, " + size_text(file));
 }
 
-/// What is wrong with a file, or "".
+/// Message on a file that cannot be used, or "".
 template <class Read>
 std::string fault(Read&& read)
 {
@@ -102,7 +102,8 @@ std::string fault(Read&& read)
   return "";
 }
 
-/// "failure" of failed.json, which a run leaves that could not go on; nothing without one.
+/// "failure" of failed.json, which a run that became unstable leaves; nothing without the
+/// file.
 std::optional<std::string> failure_in(const fs::path& folder)
 {
   std::error_code error;
@@ -120,7 +121,7 @@ std::string state_of(const fs::path& folder)
   return fs::exists(folder / "summary.json") ? "finished" : "not finished";
 }
 
-/// Whether a file of VTK ends as one does.
+/// Whether a VTK file has its closing tag.
 bool is_whole_vtk(const fs::path& file)
 {
   constexpr std::streamoff n = 32;
@@ -132,7 +133,7 @@ bool is_whole_vtk(const fs::path& file)
   return tail.find(end) != std::string::npos;
 }
 
-/// Results that a checkpoint counts on. @throws InputError
+/// Check the results that a restart from this checkpoint needs. @throws InputError
 void check_results(const fs::path& folder, const dem::Checkpoint& c)
 {
   if (c.label.job == "pile") PileOutput::check(folder, c.state);
@@ -141,7 +142,7 @@ void check_results(const fs::path& folder, const dem::Checkpoint& c)
   ElementPictures::check(folder, c.state);
 }
 
-/// The lines on a results folder.
+/// The report on a results folder.
 class FolderReport {
 public:
   explicit FolderReport(const fs::path& folder)
@@ -149,11 +150,11 @@ public:
   {
     if (own_.files.empty() && !FolderLock::is_known(folder))
       throw InputError("mergel info " + folder.string() +
-                       ": is no results folder: it holds no file of mergel. Give the "
-                       "folder that a run wrote to, a sample or a checkpoint.");
+                       ": is no results folder: it holds no file of mergel. Name the "
+                       "results folder of a run, a sample or a checkpoint.");
   }
 
-  /// False when something in it cannot be used.
+  /// False when a file in it cannot be used.
   bool print()
   {
     std::cout << folder_.string() << ": results folder, " << state_of(folder_) << '\n';
@@ -243,10 +244,10 @@ private:
       dem::Checkpoint c;
       const std::string wrong = fault([&] { c = dem::read_checkpoint(file); });
       if (!wrong.empty() && !fs::exists(fs::symlink_status(file)))
-        continue; // the run has removed it since
+        continue; // a run has removed it meanwhile
       has_any = true;
       judge("checkpoint", wrong.empty() ? "" : file.filename().string() + " " + wrong,
-            file.filename().string() + ", " + c.label.stage + ", step " +
+            file.filename().string() + ", " + c.label.phase + ", step " +
                 std::to_string(c.label.step) +
                 ", t = " + dem::shortest(1e3 * c.label.time) + " ms, mergel " +
                 c.label.program + ", good");
@@ -300,10 +301,10 @@ int run_info(const fs::path& path)
 void help_info(std::ostream& out)
 {
   out << "  PATH  a sample, a checkpoint, or the results folder of a run\n\n"
-         "Of a folder it says also which run is writing there now, why a run failed, what "
-         "is\n"
-         "set aside, and whether the newest checkpoint finds the results it counts on.\n"
-         "Exit code 1 when something there is damaged, missing or no file of mergel.\n";
+         "The report on a folder also names the run that is writing there, the failure of "
+         "a run,\ncheckpoints that were set aside, and results that a restart needs and "
+         "that are missing.\n"
+         "Exit code 1 when a file is damaged, missing or not written by mergel.\n";
 }
 
 std::function<int()> read_info(const std::vector<std::string>& arguments)

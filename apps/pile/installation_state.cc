@@ -1,4 +1,4 @@
-/// An installation kept in a state and taken up again: its numbers and counts, in one order.
+/// Saving and loading an installation: its numbers and counts in a fixed order.
 #include "apps/pile/installation.h"
 
 #include <cmath>
@@ -17,10 +17,10 @@ auto Installation::numbers_of(Self& self)
   auto& r = self.last_;
   all.insert(all.end(), {&r.time, &r.depth, &r.tip_depth, &r.F_tip, &r.F_shaft, &r.q_c,
                          &r.unbalanced, &r.kinetic, &r.energy_error});
-  for (auto* e : {&self.start_.rock, &self.last_.book})
+  for (auto* e : {&self.start_.assembly, &self.last_.balance})
     all.insert(all.end(), {&e->kinetic, &e->bonds, &e->contacts, &e->walls, &e->mirror,
                            &e->gravity, &e->wall_work, &e->pile_work, &e->slip, &e->plastic,
-                           &e->residue, &e->lock, &e->damping});
+                           &e->breakage_release, &e->rotation_constraint, &e->damping});
   auto& f = self.start_.far_field;
   all.insert(all.end(), {&f.kinetic, &f.strain, &f.interface_work, &f.gravity_work,
                          &f.initial_stress_work, &f.damping});
@@ -36,7 +36,7 @@ auto Installation::counts_of(Self& self)
       &self.breakage_.above, &self.n_frames_,    &self.n_bonds_,      &self.n_between_};
 }
 
-void Installation::put(dem::State& state) const
+void Installation::save(dem::State& state) const
 {
   std::vector<double> numbers;
   for (const double* a : numbers_of(*this)) numbers.push_back(*a);
@@ -46,7 +46,7 @@ void Installation::put(dem::State& state) const
   state.add_common("pile_counts", std::move(counts));
 }
 
-void Installation::take(const dem::State& state)
+void Installation::load(const dem::State& state)
 {
   const auto all = numbers_of(*this);
   const auto& numbers = state.get_rows<double>("pile_numbers", all.size());

@@ -13,48 +13,50 @@ double PileCase::cone_height() const
 
 void declare(CaseFile& file, PileCase& c)
 {
-  declare(file, c.rock);
+  declare(file, c.assembly);
   {
     const auto section = file.section("Pile");
     file.quantity("diameter", c.diameter, "m", positive, "Diameter of the shaft.", "mm");
     file.quantity("cone angle", c.cone_angle, "rad", inside(0.0, dem::pi),
                   "Full angle at the tip.", "degree");
-    file.quantity("velocity", c.velocity, "m/s", positive,
+    file.former_name("velocity", "penetration rate");
+    file.quantity("penetration rate", c.velocity, "m/s", positive,
                   "Downwards, after a ramp of 0.05 diameters.");
     file.quantity("final depth", c.final_depth, "m", positive,
                   "Of the shoulder below the surface.", "mm");
     c.contact.mu = unset;
-    file.number("friction", c.contact.mu, non_negative, "Between pile and grains.");
+    file.number("friction", c.contact.mu, non_negative, "Between pile and particles.");
     c.contact.E = 1.26e9;
     file.quantity("contact modulus", c.contact.E, "Pa", positive,
-                  "Effective modulus of the contact between pile and grains.", "GPa");
+                  "Effective modulus of the contact between pile and particles.", "GPa");
   }
   const auto section = file.section("Output");
   c.record_every = 0.01e-3;
   file.quantity("record every", c.record_every, "m", positive,
                 "Travel of the pile between two lines of history.csv.", "mm");
   file.integer("frames", c.frames, at_least(1.0),
-               "Pictures of all fields over the installation, beside the first.");
+               "Frames of all fields during the penetration, after the first.");
   declare(file, c.checkpoints);
 }
 
 void complete(CaseFile& file, PileCase& c)
 {
-  complete(file, c.rock);
+  complete(file, c.assembly);
   const auto mm = [](double x) { return dem::shortest(1e3 * x) + " mm"; };
-  if (c.diameter >= c.rock.diameter)
+  if (c.diameter >= c.assembly.diameter)
     file.refuse(
         "Pile", "diameter",
         "the pile is wider than the DEM region: must be below `Specimen/diameter`, " +
-            mm(c.rock.diameter) + "; crushing reaches some two diameters from the axis");
+            mm(c.assembly.diameter) +
+            "; bonds break up to some two diameters from the axis");
   const double tip = c.travel();
-  if (tip + c.diameter > c.rock.height)
+  if (tip + c.diameter > c.assembly.height)
     file.refuse("Pile", "final depth",
-                "the tip would come to " + mm(tip) +
-                    ", closer than a diameter to the base of the DEM region at " +
-                    mm(c.rock.height) + "; lower it or raise `Specimen/height`");
+                "the tip would reach " + mm(tip) +
+                    ", less than a diameter above the floor of the DEM region at " +
+                    mm(c.assembly.height) + "; lower it or raise `Specimen/height`");
   complete(file, c.checkpoints);
-  c.contact.kappa = c.rock.material.contact.kappa;
+  c.contact.kappa = c.assembly.material.contact.kappa;
 }
 
 } // namespace mergel::apps

@@ -1,4 +1,4 @@
-/// Case of `mergel pile`: rock, pile and output.
+/// Case of `mergel pile`: coupled system, pile and output.
 #pragma once
 
 #include "apps/case/coupled_case.h"
@@ -7,18 +7,18 @@
 namespace mergel::apps {
 
 struct PileCase {
-  RockCase rock;
+  CoupledCase assembly;
 
   // Pile
   double diameter = unset;     ///< [m]
   double cone_angle = unset;   ///< full angle at the tip [rad]
   double velocity = unset;     ///< downwards [m/s]
   double final_depth = unset;  ///< of the shoulder below the surface [m]
-  dem::LinearMaterial contact; ///< with the grains; kappa is that of the grains
+  dem::LinearMaterial contact; ///< with the particles; kappa is that of the particles
 
   // Output
   double record_every = unset; ///< travel between lines of history.csv [m]
-  int frames = 20;             ///< pictures of the fields after the first
+  int frames = 20;             ///< frames of the fields after the first
   CheckpointKey checkpoints;
 
   double cone_height() const;

@@ -19,7 +19,7 @@ const std::vector<std::string> columns{
     "shaft force of the full pile [N]",
     "q_c [Pa]",
     "bonds broken [-]",
-    "unbalanced ratio [-]",
+    "unbalanced-force ratio [-]",
     "kinetic energy of the half model [J]",
     "interface force error [-]",
     "interface moment error [-]",
@@ -57,14 +57,14 @@ PileOutput::PileOutput(const std::filesystem::path& folder, const PileCase& c,
 {
   if (!std::filesystem::equivalent(folder, earlier) &&
       std::filesystem::exists(earlier / "sample.h5"))
-    copy_whole(earlier / "sample.h5", folder / "sample.h5");
+    copy_atomically(earlier / "sample.h5", folder / "sample.h5");
 }
 
-void PileOutput::put(dem::State& state, const PileOutput* output)
+void PileOutput::save(dem::State& state, const PileOutput* output)
 {
   const dem::HistoryMark mark = output ? output->history_.mark() : dem::HistoryMark{};
   state.add_common<std::uint64_t>("output_history", {mark.bytes, mark.sum});
-  Frames::put(state, output ? &output->frames_ : nullptr);
+  Frames::save(state, output ? &output->frames_ : nullptr);
 }
 
 void PileOutput::check(const std::filesystem::path& folder, const dem::State& state)
@@ -75,19 +75,20 @@ void PileOutput::check(const std::filesystem::path& folder, const dem::State& st
 
 void PileOutput::record(const PileRecord& r)
 {
-  const dem::EnergyBook& e = r.book;
+  const dem::EnergyBalance& e = r.balance;
   history_.add({r.time, r.depth, r.depth / diameter_, r.tip_depth, r.F_tip, r.F_shaft,
                 r.q_c, static_cast<double>(r.broken), r.unbalanced, r.kinetic,
                 r.interface.force, r.interface.moment, r.interface.power, r.energy_error,
                 e.pile_work, e.bonds + e.contacts + e.walls + e.mirror,
-                e.plastic + e.residue, e.slip, e.damping});
+                e.plastic + e.breakage_release, e.slip, e.damping});
 }
 
-void PileOutput::frame(double time, const dem::Rock& rock, const CoupledRock& coupled)
+void PileOutput::frame(double time, const dem::Assembly& assembly,
+                       const CoupledSystem& coupled)
 {
-  dem::write_particles(frames_.file(0), rock, coupled.x_0);
-  dem::write_bonds(frames_.file(1), rock);
-  dem::write_pile(frames_.file(2), rock.piles.front().pile, 2.0 * diameter_);
+  dem::write_particles(frames_.file(0), assembly, coupled.x_0);
+  dem::write_bonds(frames_.file(1), assembly);
+  dem::write_pile(frames_.file(2), assembly.piles.front().pile, 2.0 * diameter_);
   dem::replace_file(frames_.file(3), [&](const std::filesystem::path& path) {
     coupled.far_field.write_vtu(path);
   });

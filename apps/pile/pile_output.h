@@ -1,4 +1,4 @@
-/// What a pile run leaves behind: history.csv, fields for ParaView, summary.
+/// Results of a pile run: history.csv and the frames for ParaView.
 #pragma once
 
 #include "apps/coupled/coupled_system.h"
@@ -8,7 +8,8 @@
 
 namespace mergel::apps {
 
-/// One line of history.csv. Forces are those of the full pile: the half model's, doubled.
+/// One line of history.csv. Forces are those of the full pile: twice those of the half
+/// model.
 struct PileRecord {
   double time = 0.0;       ///< since the pile began to move [s]
   double depth = 0.0;      ///< of the shoulder; negative while the cone enters [m]
@@ -18,32 +19,33 @@ struct PileRecord {
   double q_c = 0.0;        ///< F_tip / (pi D^2/4) [Pa]
   std::size_t broken = 0;  ///< bonds so far
   double unbalanced = 0.0; ///< [-]
-  double kinetic = 0.0;    ///< of the grains, half model [J]
+  double kinetic = 0.0;    ///< of the particles, half model [J]
   coupling::InterfaceBalance interface;
   double energy_error = 0.0; ///< unexplained energy over the input [-]
-  /// Of the half model; pile work and losses since the pile began to move.
-  dem::EnergyBook book;
+  /// Of the half model; pile work, slip, damping and bond losses since the pile began to
+  /// move.
+  dem::EnergyBalance balance;
 };
 
 class PileOutput {
 public:
   PileOutput(const std::filesystem::path& folder, const PileCase& c);
-  /// Go on with what `earlier`, which may be the same folder, held when put() wrote
-  /// `state`.
-  /// @throws InputError when it no longer does
+  /// Continue the files that the folder `earlier`, which may be `folder`, held when save()
+  /// wrote `state`.
+  /// @throws InputError when they do not go as far as `state` says
   PileOutput(const std::filesystem::path& folder, const PileCase& c,
              const std::filesystem::path& earlier, const dem::State& state);
 
-  /// Add how far the files go, all of them on the disk.
+  /// Add the length of the history and the times of the frames, all of them on the disk.
   /// @param output null on all ranks but the first
-  static void put(dem::State& state, const PileOutput* output);
+  static void save(dem::State& state, const PileOutput* output);
   /// @throws InputError when the files of `folder` do not go as far as `state` says
   static void check(const std::filesystem::path& folder, const dem::State& state);
 
   void record(const PileRecord& r);
   /// Particles, bonds, pile and far field at this time [s].
-  /// @param rock the whole of it
-  void frame(double time, const dem::Rock& rock, const CoupledRock& coupled);
+  /// @param assembly gathered: all particles
+  void frame(double time, const dem::Assembly& assembly, const CoupledSystem& coupled);
 
 private:
   double diameter_;

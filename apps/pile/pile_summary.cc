@@ -11,24 +11,25 @@
 
 namespace mergel::apps {
 
-std::size_t count_debris(const dem::Rock& rock, double lip)
+std::size_t count_debris(const dem::Assembly& assembly, double collar_height)
 {
   std::size_t n = 0;
-  rock.particles.for_owned([&](dem::Index i) { n += rock.particles.body[i].x.z() > lip; });
-  return rock.comm.global_sum(n);
+  assembly.particles.for_owned(
+      [&](dem::Index i) { n += assembly.particles.state[i].x.z() > collar_height; });
+  return assembly.comm.global_sum(n);
 }
 
 namespace {
 
-struct Share {
+struct Part {
   const char* name;
   double seconds;
 };
 
-/// Time of a step by its parts, as shares of the whole.
-std::string shares(const CoupledRock& coupled, const Work& work)
+/// Time of a step, and the parts of it in per cent.
+std::string time_by_parts(const CoupledSystem& coupled, const Work& work)
 {
-  const dem::StepTimes& t = coupled.rock.times;
+  const dem::StepTimes& t = coupled.assembly.times;
   const double far = coupled.exchange.far_field_seconds,
                ex = coupled.exchange.exchange_seconds;
   const double whole = t.total() + far + ex;
@@ -36,16 +37,16 @@ std::string shares(const CoupledRock& coupled, const Work& work)
   out.precision(3);
   out << "time of a step: " << 1e6 * whole / static_cast<double>(work.n_steps) << " us in "
       << work.n_steps << " steps, "
-      << 1e9 * whole / static_cast<double>(work.n_steps * coupled.rock.particles.size())
-      << " ns a grain;";
-  for (const Share& s : {Share{"bonds", t.bonds},
-                         {"contacts", t.contacts},
-                         {"walls", t.walls},
-                         {"motion", t.motion},
-                         {"ranks", t.exchange},
-                         {"lists", t.lists},
-                         {"far field", far},
-                         {"coupling", ex}})
+      << 1e9 * whole / static_cast<double>(work.n_steps * coupled.assembly.particles.size())
+      << " ns per particle;";
+  for (const Part& s : {Part{"bonds", t.bonds},
+                        {"contacts", t.contacts},
+                        {"walls", t.walls},
+                        {"motion", t.motion},
+                        {"ranks", t.exchange},
+                        {"lists", t.lists},
+                        {"far field", far},
+                        {"coupling", ex}})
     out << ' ' << s.name << ' ' << 100.0 * s.seconds / whole << " %,";
   out << " whole run " << duration_text(work.seconds);
   return out.str();
@@ -54,7 +55,7 @@ std::string shares(const CoupledRock& coupled, const Work& work)
 } // namespace
 
 void write_summary(const std::filesystem::path& file, const Installation& run,
-                   const CoupledRock& coupled, std::size_t n_debris, double seconds,
+                   const CoupledSystem& coupled, std::size_t n_debris, double seconds,
                    const std::string& failure)
 {
   const PileRecord& r = run.last();
@@ -74,16 +75,16 @@ void write_summary(const std::filesystem::path& file, const Installation& run,
   number("shaft force of the full pile [N]", r.F_shaft);
   number("bonds [-]", count(run.n_bonds()));
   number("bonds broken [-]", count(r.broken));
-  number("bonds between grains [-]", count(run.n_between()));
-  number("broken between grains [-]", count(broken.all));
+  number("bonds between particles [-]", count(run.n_between()));
+  number("broken between particles [-]", count(broken.all));
   number("broken within 2 D_p of the axis [-]", count(broken.near));
   number("broken more than D_p above the shoulder [-]", count(broken.above));
-  number("grains above the lip [-]", count(n_debris));
+  number("particles above the collar [-]", count(n_debris));
   number("largest energy error [-]", run.worst_energy_error());
   number("largest interface force error [-]", run.worst_interface().force);
   number("largest interface moment error [-]", run.worst_interface().moment);
   number("largest interface power error [-]", run.worst_interface().power);
-  number("particles [-]", count(coupled.rock.particles.size()));
+  number("particles [-]", count(coupled.assembly.particles.size()));
   number("far-field cells [-]", count(coupled.far_field.n_cells()));
   number("steps [-]", count(coupled.n_steps));
   number("time step [s]", coupled.dt);
@@ -93,7 +94,7 @@ void write_summary(const std::filesystem::path& file, const Installation& run,
 }
 
 void print_summary(const std::filesystem::path& folder, const PileCase& c,
-                   const Installation& run, const CoupledRock& coupled,
+                   const Installation& run, const CoupledSystem& coupled,
                    std::size_t n_debris, const Work& work)
 {
   const PileRecord& r = run.last();
@@ -106,15 +107,15 @@ void print_summary(const std::filesystem::path& folder, const PileCase& c,
             << " D_p): q_c " << 1e-6 * r.q_c << " MPa, largest " << 1e-6 * run.peak()
             << " MPa; tip " << r.F_tip << " N, shaft " << r.F_shaft << " N (full pile)\n"
             << "bonds broken: " << r.broken << " of " << run.n_bonds() << ", " << broken.all
-            << " of them between grains: " << percent(broken.near, broken.all)
+            << " of them between particles: " << percent(broken.near, broken.all)
             << " % within 2 D_p of the axis, " << broken.above
             << " more than D_p above the shoulder when they broke; " << n_debris
-            << " grains flew above the lip\n"
-            << "energy book closes to " << 100.0 * run.worst_energy_error()
-            << " % of the input; interface balances to " << run.worst_interface().force
+            << " particles are above the collar\n"
+            << "largest energy error " << 100.0 * run.worst_energy_error()
+            << " % of the input; largest interface errors " << run.worst_interface().force
             << " (force), " << run.worst_interface().moment << " (moment), "
             << run.worst_interface().power << " (power)\n"
-            << shares(coupled, work) << "\nresults: " << folder.string()
+            << time_by_parts(coupled, work) << "\nresults: " << folder.string()
             << " (history.csv, summary.json, *.pvd for ParaView); pictures: mergel-view "
             << folder.string() << "\n";
 }

@@ -19,17 +19,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Steps between two looks at clock and signals: a look is one global reduction, and a step
+/// Steps between two checks of clock and signals. A check is one global reduction; a step
 /// has several.
-constexpr std::uint64_t steps_between_looks = 10;
+constexpr std::uint64_t steps_between_checks = 10;
 
 constexpr std::size_t n_kept = 2;
 
-/// Before the end of the walltime: this, and twice what a checkpoint and a look have taken.
+/// The run stops this long before the end of the walltime, plus twice the longest times of
+/// a checkpoint and between two checks.
 constexpr double margin = 2.0; // [s]
 
-/// What a slow disk of a cluster writes: the first checkpoint is counted upon by it.
-constexpr double least_rate = 20e6; // [bytes/s]
+/// Write rate of a slow disk of a cluster, to estimate the time of the first checkpoint.
+constexpr double lowest_rate = 20e6; // [bytes/s]
 
 /// All ranks together; collective.
 double n_bytes(const dem::State& mine, const dem::Communicator& comm)
@@ -61,7 +62,7 @@ Cadence to_cadence(const std::string& text)
     throw InputError("must be a time, a number of steps or never; expected for example "
                      "\"10 min\" or \"5000 steps\"");
   }
-  if (every.seconds <= 0.0) throw InputError("must be above 0 s; or write never");
+  if (every.seconds <= 0.0) throw InputError("must be above 0 s, or never");
   return every;
 }
 
@@ -82,19 +83,20 @@ void complete(const CaseFile& file, CheckpointKey& key)
   }
 }
 
-Keeper::Keeper(KeeperSpec spec)
-    : spec_(std::move(spec)), last_(spec_.restarted_from), written_(dem::wall_clock()),
+CheckpointScheduler::CheckpointScheduler(CheckpointSchedule spec)
+    : spec_(std::move(spec)), last_(spec_.restarted_from), written_(spec_.clock()),
       asked_(written_)
 {
 }
 
-Keeper::Wish Keeper::wish_here(const dem::Communicator& comm, const Position& at)
+CheckpointScheduler::Wish CheckpointScheduler::wish_here(const dem::Communicator& comm,
+                                                         const Position& at)
 {
   if (signals_.wants_stop()) return stop;
-  const double now = dem::wall_clock();
+  const double now = spec_.clock();
   between_ = std::max(between_, now - asked_);
   asked_ = now;
-  // Clocks differ: the first rank's counts.
+  // The clocks of the ranks differ: the first rank decides.
   if (comm.rank() == 0 && now + margin + 2.0 * (longest_ + between_) > spec_.end)
     return stop_in_time;
   const bool is_due = comm.rank() == 0 && now - written_ >= spec_.every.seconds;
@@ -102,39 +104,39 @@ Keeper::Wish Keeper::wish_here(const dem::Communicator& comm, const Position& at
   return is_due || is_at_step || signals_.wants_checkpoint() ? write : none;
 }
 
-void Keeper::after_step(const dem::Communicator& comm, const Position& at,
-                        const std::function<void(dem::State&)>& put)
+void CheckpointScheduler::after_step(const dem::Communicator& comm, const Position& at,
+                                     const std::function<void(dem::State&)>& save)
 {
   const bool is_at_step = spec_.every.steps > 0 && at.step % spec_.every.steps == 0;
-  if (!is_at_step && at.step % steps_between_looks != 0) return;
+  if (!is_at_step && at.step % steps_between_checks != 0) return;
   if (!has_estimate_ && std::isfinite(spec_.end)) {
     dem::State mine(comm.rank());
-    put(mine);
-    longest_ = n_bytes(mine, comm) / least_rate;
+    save(mine);
+    longest_ = n_bytes(mine, comm) / lowest_rate;
     has_estimate_ = true;
   }
   const auto wish = static_cast<Wish>(
       static_cast<int>(comm.global_max(static_cast<double>(wish_here(comm, at)))));
   if (wish == none) return;
-  write_now(comm, at, put);
+  write_now(comm, at, save);
   if (wish == write) return;
   throw Stopped(std::string(wish == stop ? "stopped by SIGTERM"
                                          : "stopped before the end of --walltime") +
                 " at step " + std::to_string(at.step) + ", t = " + dem::shortest(at.time) +
-                " s (" + at.stage + "), checkpoint " + last_.string() + ". " +
+                " s (" + at.phase + "), checkpoint " + last_.string() + ". " +
                 how_to_continue());
 }
 
-void Keeper::write_now(const dem::Communicator& comm, const Position& at,
-                       const std::function<void(dem::State&)>& put)
+void CheckpointScheduler::write_now(const dem::Communicator& comm, const Position& at,
+                                    const std::function<void(dem::State&)>& save)
 {
-  const double start = dem::wall_clock();
+  const double start = spec_.clock();
   dem::State mine(comm.rank());
   const fs::path file = spec_.folder / dem::checkpoint_name(at.step);
   try {
-    put(mine);
+    save(mine);
     dem::write_checkpoint(
-        file, {MERGEL_VERSION, spec_.job, at.stage, spec_.case_text, at.step, at.time},
+        file, {MERGEL_VERSION, spec_.job, at.phase, spec_.case_text, at.step, at.time},
         std::move(mine), comm);
   } catch (const CollectiveFailure& e) {
     throw Remedied(e.what() + remedy());
@@ -142,36 +144,35 @@ void Keeper::write_now(const dem::Communicator& comm, const Position& at,
   if (comm.rank() == 0) dem::keep_newest(file, n_kept);
   last_ = file;
   signals_.checkpointed();
-  asked_ = written_ = dem::wall_clock();
+  asked_ = written_ = spec_.clock();
   longest_ = n_written_ == 0 ? written_ - start : std::max(longest_, written_ - start);
   has_estimate_ = true;
   ++n_written_;
 }
 
-std::string Keeper::how_to_continue() const
+std::string CheckpointScheduler::how_to_continue() const
 {
   return "Continue with: mergel " + spec_.job + " --restart " + spec_.folder.string();
 }
 
-std::string Keeper::remedy() const
+std::string CheckpointScheduler::remedy() const
 {
   if (last_.empty()) return "; there is no checkpoint yet";
   return "; the last good checkpoint is " + last_.string() + ". " + how_to_continue();
 }
 
-std::string Keeper::remedy_of_instability() const
+std::string CheckpointScheduler::remedy_of_instability() const
 {
   if (last_.empty()) return remedy();
   return "; the last checkpoint is " + last_.string() +
-         ", and from it the same run would fail again. Begin a new run with the change "
-         "named "
-         "above, or where a smaller step helps go on with: mergel " +
+         ". Continued from it, the same run would fail again. Begin a new run with the "
+         "change named above, or, where a smaller time step helps, continue with: mergel " +
          spec_.job + " --restart " + spec_.folder.string() +
          " --set \"Motion/time step safety=...\"";
 }
 
-void Keeper::rethrow_with_remedy(
-    const std::function<void(const std::string&)>& leave_figures) const
+void CheckpointScheduler::rethrow_with_remedy(
+    const std::function<void(const std::string&)>& write_results) const
 {
   try {
     throw;
@@ -180,9 +181,10 @@ void Keeper::rethrow_with_remedy(
   } catch (const Unstable& e) {
     std::string message = e.what() + remedy_of_instability();
     try {
-      if (leave_figures) leave_figures(e.what());
+      if (write_results) write_results(e.what());
     } catch (const CollectiveFailure& also) {
-      message += std::string("; what was found until then is lost: ") + also.what();
+      message +=
+          std::string("; the results until then could not be written: ") + also.what();
     }
     throw Remedied(message);
   } catch (const CollectiveFailure& e) {

@@ -1,5 +1,5 @@
-/// Keeps a run from being lost: checkpoints when they are due, and an orderly end when the
-/// run is told to stop.
+/// Checkpoints of a run: written when they are due, and before the run stops on a signal or
+/// at the end of the walltime.
 #pragma once
 
 #include "apps/case/case_file.h"
@@ -19,87 +19,87 @@ struct Cadence {
   std::uint64_t steps = 0;                                  ///< 0: not by steps
 };
 
-/// "10 min", "5000 steps" or "never". @throws InputError saying what is expected
+/// "10 min", "5000 steps" or "never". @throws InputError with the expected form
 Cadence to_cadence(const std::string& text);
 
 /// Key `Output/checkpoint every`.
 struct CheckpointKey {
   std::string text = "10 min";
-  Cadence every; ///< the same, set by complete()
+  Cadence every; ///< value of the text, set by complete()
 };
-/// In the open section. @pre file.section("Output") lives
+/// Declare the key in the open section. @pre file.section("Output") is open
 void declare(CaseFile& file, CheckpointKey& key);
 /// @throws InputError naming file, line and key
 void complete(const CaseFile& file, CheckpointKey& key);
 
-/// A failure whose words already say how to go on.
+/// A failure whose message already says how to continue.
 struct Remedied : CollectiveFailure {
   using CollectiveFailure::CollectiveFailure;
 };
 
-/// The run was told to stop, and did so behind a checkpoint.
+/// The run was asked to stop, and stopped after it had written a checkpoint.
 struct Stopped : Remedied {
   using Remedied::Remedied;
 };
 
-struct KeeperSpec {
+struct CheckpointSchedule {
   std::filesystem::path folder; ///< of the results; the last two checkpoints stay there
   std::string job;
   std::string case_text; ///< the complete case
   Cadence every;
-  double end = std::numeric_limits<double>::infinity(); ///< dem::wall_clock() at --walltime
-  std::filesystem::path restarted_from = {};            ///< empty: from the beginning
+  double end = std::numeric_limits<double>::infinity(); ///< clock() at --walltime
+  std::filesystem::path restarted_from = {};            ///< checkpoint; empty: a new run
+  std::function<double()> clock = dem::wall_clock;      ///< [s]; another one in tests
 };
 
-class Keeper {
+class CheckpointScheduler {
 public:
-  explicit Keeper(KeeperSpec spec);
+  explicit CheckpointScheduler(CheckpointSchedule spec);
 
   /// Where the run is.
   struct Position {
     std::uint64_t step;
     double time;       ///< [s]
-    const char* stage; ///< in words
+    const char* phase; ///< name of the phase
   };
 
   /// Call between steps, on all ranks. Writes a checkpoint when one is due: by time or
-  /// steps, when a rank got SIGUSR1 or SIGTERM, before the walltime is over. No bit of the
-  /// run depends on it.
-  /// @param put adds the state of the run, each rank its part; collective
+  /// steps, after a rank received SIGUSR1 or SIGTERM, and before the walltime is over. The
+  /// results of the run do not depend on it, bit for bit.
+  /// @param save adds the state of the run, each rank its part; collective
   /// @throws Stopped after SIGTERM and before the end of the walltime; CollectiveFailure
   ///   when the checkpoint cannot be written, naming the last good one
   void after_step(const dem::Communicator& comm, const Position& at,
-                  const std::function<void(dem::State&)>& put);
+                  const std::function<void(dem::State&)>& save);
 
   /// "; the last checkpoint is ..., continue with ...", for a message on a failure.
   std::string remedy() const;
 
-  /// Throw the exception that is being handled, with the remedy: what all ranks know as
-  /// Remedied, another failure of run, system or library (exit code 2) as a NumericalError;
-  /// bad input and bugs as they are.
-  /// @param leave_figures writes what was found until the run went unstable, and how that is
-  ///   said; collective, may throw CollectiveFailure
+  /// Throw the exception that is being handled, with the remedy: a CollectiveFailure as
+  /// Remedied, another failure of run, system or library (exit code 2) as NumericalError;
+  /// bad input and bugs unchanged.
+  /// @param leave_figures writes the results until the run became unstable, and the message
+  ///   that it is given; collective, may throw CollectiveFailure
   /// @pre called from a catch block
   [[noreturn]] void rethrow_with_remedy(
-      const std::function<void(const std::string&)>& leave_figures = {}) const;
+      const std::function<void(const std::string&)>& write_results = {}) const;
 
   std::size_t n_written() const { return n_written_; }
-  double longest_write() const { return longest_; } ///< [s]
 
 private:
   enum Wish : int { none, write, stop_in_time, stop };
   Wish wish_here(const dem::Communicator& comm, const Position& at);
   void write_now(const dem::Communicator& comm, const Position& at,
-                 const std::function<void(dem::State&)>& put);
+                 const std::function<void(dem::State&)>& save);
   std::string how_to_continue() const;
   std::string remedy_of_instability() const;
 
-  KeeperSpec spec_;
+  CheckpointSchedule spec_;
   Signals signals_;
   std::filesystem::path last_;
-  double written_, asked_;               ///< instants [s]
-  double longest_ = 0.0, between_ = 0.0; ///< longest write, and time between two looks [s]
-  bool has_estimate_ = false; ///< longest_ is measured, or guessed from the bytes
+  double written_, asked_;               ///< clock at the last write and check [s]
+  double longest_ = 0.0, between_ = 0.0; ///< longest write and time between checks [s]
+  bool has_estimate_ = false; ///< longest_ is measured, or estimated from the size
   std::size_t n_written_ = 0;
 };
 

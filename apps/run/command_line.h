@@ -18,7 +18,7 @@ inline void parse(CLI::App& app, const std::string& command,
                   std::vector<std::string> arguments)
 {
   try {
-    std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
+    std::reverse(arguments.begin(), arguments.end()); // CLI11 takes the last one first
     app.parse(std::move(arguments));
   } catch (const CLI::CallForHelp&) {
     throw;

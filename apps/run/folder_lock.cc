@@ -32,7 +32,7 @@ constexpr std::chrono::milliseconds pause{100};
                    "folder with --output.");
 }
 
-/// An open file that is closed on every way out.
+/// An open file, closed by the destructor.
 struct Descriptor {
   int number;
   ~Descriptor()
@@ -52,7 +52,7 @@ Locked lock(int number)
   return Locked::yes;
 }
 
-/// Whether the open file still bears its name: the run before may have removed it.
+/// Whether the open file is still the one of this name: the run before may have removed it.
 bool is_at(int number, const fs::path& file)
 {
   struct stat mine = {}, there = {};
@@ -76,10 +76,10 @@ std::string who(int number)
 
 } // namespace
 
-FolderLock::FolderLock(const fs::path& folder, double patience) : file_(folder / lock_name)
+FolderLock::FolderLock(const fs::path& folder, double timeout) : file_(folder / lock_name)
 {
   const auto end =
-      std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
+      std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout);
   for (;;) {
     Descriptor file{::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)};
     if (file.number < 0)
@@ -90,7 +90,7 @@ FolderLock::FolderLock(const fs::path& folder, double patience) : file_(folder /
     case Locked::unknown:
       std::cerr
           << folder.string() << ": " << std::generic_category().message(errno)
-          << ": this file system has no locks; take care that no other run writes there"
+          << ": this file system has no locks: make sure that no other run writes there"
           << std::endl;
       return;
     case Locked::no:
@@ -99,7 +99,7 @@ FolderLock::FolderLock(const fs::path& folder, double patience) : file_(folder /
     case Locked::yes: {
       if (!is_at(file.number, file_)) continue;
       number_ = std::exchange(file.number, -1);
-      // Only words for another run: on a full disk the lock holds without them.
+      // Only information for other runs: on a full disk the lock holds without it.
       const std::string me = this_process();
       if (::ftruncate(number_, 0) == 0) [[maybe_unused]]
         const ssize_t n = ::pwrite(number_, me.data(), me.size(), 0);
@@ -142,10 +142,10 @@ std::string FolderLock::holder(const fs::path& folder)
   return who(file.number);
 }
 
-void require_no_run(const fs::path& folder, double patience)
+void require_no_run(const fs::path& folder, double timeout)
 {
   const auto end =
-      std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
+      std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout);
   for (;;) {
     const std::string holder = FolderLock::holder(folder);
     if (holder.empty()) return;

@@ -6,19 +6,19 @@
 
 namespace mergel::apps {
 
-/// Holds the file `.mergel.lock` of a folder locked (flock) while it lives, and removes it at
-/// the end. A file that a killed run has left behind locks nothing: the system drops the
-/// lock with the process.
+/// Keeps the file `.mergel.lock` of a folder locked (flock) while the object lives, and
+/// removes the file at the end. A file that a killed run has left behind locks nothing: the
+/// system releases the lock with the process.
 ///
-/// On NFS the lock is the server's and holds on all nodes; when a node dies the server keeps
-/// it for its lease, 90 s as a rule. A file system without locks is used without, and the
-/// user is told.
+/// On NFS the server keeps the lock, for all nodes; when a node dies, it keeps it until the
+/// lease ends, 90 s as a rule. On a file system without locks the folder is not locked, and
+/// a warning is printed.
 class FolderLock {
 public:
-  FolderLock() = default; ///< of no folder
-  /// @param patience how long a run that is just ending is waited for [s]
-  /// @throws InputError naming the run that holds it; when the file cannot be made
-  explicit FolderLock(const std::filesystem::path& folder, double patience = 5.0);
+  FolderLock() = default; ///< locks nothing
+  /// @param patience longest wait for a run that is just ending [s]
+  /// @throws InputError naming the run that holds it, or when the file cannot be created
+  explicit FolderLock(const std::filesystem::path& folder, double timeout = 5.0);
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&& other) noexcept;
@@ -26,9 +26,9 @@ public:
   /// True also where the file system has no locks.
   bool is_held() const { return !file_.empty(); }
 
-  /// Whether a run has been in the folder, and holds it or was killed.
+  /// Whether the folder has a lock file: a run writes there, or was killed.
   static bool is_known(const std::filesystem::path& folder);
-  /// The run that holds the folder, in words; "" when none does. Makes no file.
+  /// Description of the run that holds the folder; "" when none does. Creates no file.
   static std::string holder(const std::filesystem::path& folder);
 
 private:
@@ -36,8 +36,8 @@ private:
   int number_ = -1;
 };
 
-/// Refuse a folder where a run is still writing after `patience` [s]. Makes no file.
+/// Refuse a folder where a run is still writing after `patience` [s]. Creates no file.
 /// @throws InputError naming that run
-void require_no_run(const std::filesystem::path& folder, double patience = 5.0);
+void require_no_run(const std::filesystem::path& folder, double timeout = 5.0);
 
 } // namespace mergel::apps

@@ -24,7 +24,7 @@ const std::vector<double>& times_in(const dem::State& state)
 
 } // namespace
 
-void copy_whole(const std::filesystem::path& from, const std::filesystem::path& to)
+void copy_atomically(const std::filesystem::path& from, const std::filesystem::path& to)
 {
   dem::replace_file(to, [&](const std::filesystem::path& path) {
     std::filesystem::copy_file(from, path,
@@ -58,7 +58,8 @@ Frames::Frames(const std::filesystem::path& folder, std::vector<Kind> kinds,
     std::filesystem::create_directories(fields_);
     for (const Kind& kind : kinds_)
       for (std::size_t k = 0; k < times_.size(); ++k)
-        copy_whole(earlier / "fields" / frame_name(kind, k), fields_ / frame_name(kind, k));
+        copy_atomically(earlier / "fields" / frame_name(kind, k),
+                        fields_ / frame_name(kind, k));
   }
   for (const dem::Series& series : series_) series.write();
 }
@@ -75,7 +76,7 @@ void Frames::add(double time)
   times_.push_back(time);
 }
 
-void Frames::put(dem::State& state, const Frames* frames)
+void Frames::save(dem::State& state, const Frames* frames)
 {
   state.add_common("output_frames", frames ? frames->times_ : std::vector<double>{});
 }

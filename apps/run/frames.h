@@ -1,4 +1,5 @@
-/// Pictures of a run for ParaView: a file of each kind at each time, and their series.
+/// Frames of a run for ParaView: at each time one file of each kind, and a series of each
+/// kind.
 #pragma once
 
 #include "dem/io/state/state_file.h"
@@ -9,7 +10,7 @@
 
 namespace mergel::apps {
 
-/// fields/NAME_0000.EXTENSION and so on of each kind, and NAME.pvd.
+/// Of each kind the files fields/NAME_0000.EXTENSION and so on, and their series NAME.pvd.
 class Frames {
 public:
   struct Kind {
@@ -17,21 +18,22 @@ public:
   };
 
   Frames(const std::filesystem::path& folder, std::vector<Kind> kinds);
-  /// Go on with the frames that `earlier`, which may be the same folder, held when put()
+  /// Continue the frames that the folder `earlier`, which may be `folder`, held when save()
   /// wrote `state`.
   Frames(const std::filesystem::path& folder, std::vector<Kind> kinds,
          const std::filesystem::path& earlier, const dem::State& state);
 
-  /// Where the next frame of this kind, by its place in the list, is to be written.
+  /// File of the next frame. @param kind index in the list of kinds
   std::filesystem::path file(std::size_t kind) const;
-  /// All kinds are written: they count as the frame of this time [s].
+  /// Add the frame of this time [s] to the series, after the files of all kinds are
+  /// written.
   void add(double time);
 
   /// @param frames null on all ranks but the first
-  static void put(dem::State& state, const Frames* frames);
-  /// Frames that there were.
+  static void save(dem::State& state, const Frames* frames);
+  /// Number of frames in the state.
   static std::size_t count(const dem::State& state);
-  /// @throws InputError when a file is missing from `folder` that `state` tells of
+  /// @throws InputError when a file of the frames in `state` is missing from `folder`
   static void check(const std::filesystem::path& folder, const std::vector<Kind>& kinds,
                     const dem::State& state);
 
@@ -46,6 +48,6 @@ private:
 };
 
 /// Copy a file under a temporary name and rename it.
-void copy_whole(const std::filesystem::path& from, const std::filesystem::path& to);
+void copy_atomically(const std::filesystem::path& from, const std::filesystem::path& to);
 
 } // namespace mergel::apps

@@ -16,10 +16,10 @@ namespace mergel::apps {
 struct JobOptions {
   std::filesystem::path case_file; ///< may be empty with `restart`
   std::vector<std::string> set;    ///< "Section/key=value", in the order given
-  std::filesystem::path output;    ///< results folder, not yet looked at
+  std::filesystem::path output;    ///< results folder, not yet checked
   bool overwrite = false;          ///< an earlier run there may be replaced
-  std::filesystem::path restart;   ///< checkpoint or results folder; empty: begin
-  double walltime = std::numeric_limits<double>::infinity(); ///< the run ends before [s]
+  std::filesystem::path restart;   ///< checkpoint or results folder; empty: a new run
+  double walltime = std::numeric_limits<double>::infinity(); ///< wall-clock limit [s]
 };
 
 void help_bench(std::ostream& out); ///< every option of the job
@@ -35,10 +35,10 @@ int run_pile(const JobOptions& options);
 void help_sample(std::ostream& out);
 int run_sample(const JobOptions& options);
 
-/// Returns the exit code; MPI is up.
+/// Returns the exit code. @pre MPI is initialised
 using RunCase = int (*)(const JobOptions&);
-/// Reads the arguments of a job that has no case file and returns what runs it, later, when
-/// MPI is up. @throws InputError, or CLI::CallForHelp
+/// Reads the arguments of a job that has no case file and returns a function that runs it
+/// once MPI is initialised. @throws InputError, or CLI::CallForHelp
 using ReadArguments = std::function<int()> (*)(const std::vector<std::string>&);
 
 struct Job {
@@ -46,18 +46,19 @@ struct Job {
   const char* sentence;
   void (*help)(std::ostream&);
   std::variant<RunCase, ReadArguments> run;
-  bool writes_checkpoints = false; ///< and so can stop in time
+  bool writes_checkpoints = false; ///< and can stop before a time limit
 
   bool reads_case() const { return std::holds_alternative<RunCase>(run); }
 };
 
 inline constexpr std::array<Job, 6> jobs{{
     {"bench", "Measure what a step costs on this machine.", help_bench, read_bench},
-    {"bond", "Drive one bonded pair of spheres along any path.", help_bond, run_bond},
-    {"element", "Lead a periodic cell of rock along any path of stress and strain.",
+    {"bond", "Load one bonded pair of particles along any path.", help_bond, run_bond},
+    {"element", "Load a periodic cell of bonded rock along any path of stress and strain.",
      help_element, run_element, true},
-    {"info", "Say what a sample, checkpoint or results folder is.", help_info, read_info},
-    {"pile", "Install a pile in a coupled chamber of rock.", help_pile, run_pile, true},
+    {"info", "Describe and check a sample, a checkpoint or a results folder.", help_info,
+     read_info},
+    {"pile", "Install a pile in a chamber of bonded rock.", help_pile, run_pile, true},
     {"sample", "Make a specimen and write it to a file for later runs.", help_sample,
      run_sample},
 }};

@@ -50,7 +50,7 @@ fs::path name_aside(const fs::path& checkpoint)
   for (int n = 1;; ++n) {
     fs::path name = checkpoint;
     name += n == 1 ? ".aside" : ".aside-" + std::to_string(n);
-    std::error_code error; // what cannot be looked at cannot be renamed either
+    std::error_code error; // a name that cannot be checked cannot be used either
     if (!fs::exists(fs::symlink_status(name, error))) return name;
   }
 }
@@ -61,7 +61,8 @@ bool is_own_file(const fs::path& name)
          dem::is_checkpoint_name(name) || is_set_aside(name);
 }
 
-/// Refuse to begin again where a run ended, or could go on: its results would be lost.
+/// Refuse to begin again where a run finished or could be continued: its results would be
+/// lost.
 void require_unfinished(const fs::path& folder)
 {
   std::error_code error;
@@ -75,15 +76,15 @@ void require_unfinished(const fs::path& folder)
          entry.increment(error)) {
       const fs::path name = entry->path().filename();
       if (dem::is_checkpoint_name(name) || dem::is_checkpoint_name(name.stem()))
-        found = "a run with checkpoints"; // one set aside too
+        found = "a run with checkpoints"; // those set aside included
     }
   require(found.empty(),
           "--restart " + folder.string() + ": holds " + found +
-              ", and this one would begin again. Choose another folder with --output, or "
+              ", which a new run would replace. Choose another folder with --output, or "
               "replace that run with --overwrite and without --restart.");
 }
 
-/// Number in particles_0012.vtp; the greatest there is for one beyond.
+/// Number in particles_0012.vtp; the largest std::uint64_t where it does not fit.
 std::uint64_t frame_of(const fs::path& name)
 {
   const std::string stem = name.stem().string();
@@ -93,7 +94,7 @@ std::uint64_t frame_of(const fs::path& name)
   return read.ec == std::errc{} ? frame : std::numeric_limits<std::uint64_t>::max();
 }
 
-/// A folder itself, and no link to one.
+/// Whether it is a folder, and not a link to one.
 bool is_real_folder(const fs::path& path)
 {
   std::error_code error;
@@ -108,8 +109,8 @@ bool is_own_field(const fs::path& name)
   return std::regex_match(name.string(), frame);
 }
 
-/// The name that was meant when a run stopped before it could rename its temporary file:
-/// history.csv for .history.partial.csv; else the name itself.
+/// Final name of a temporary file, which a stopped run could not rename: history.csv for
+/// .history.partial.csv. Any other name is returned as it is.
 fs::path final_name(const fs::path& name)
 {
   constexpr std::string_view mark = ".partial";
@@ -134,7 +135,7 @@ std::vector<fs::path> OutputFolder::left_by_earlier_run() const
     std::error_code error, unknown;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error))
-      // a link counts as the link, never as what it points to
+      // a link counts as a file, never as what it points to
       if (is_own(entry->path().filename(), is_real_folder(entry->path())))
         found.push_back(entry->path());
     if (error && fs::exists(folder_, unknown))
@@ -150,7 +151,7 @@ std::vector<fs::path> OutputFolder::left_by_earlier_run() const
     look_into(folder_ / own_folder, [](const fs::path& name, bool is_folder) {
       return !is_folder && is_own_field(final_name(name));
     });
-  std::sort(found.begin(), found.end()); // the order of a folder is arbitrary
+  std::sort(found.begin(), found.end()); // a folder lists its files in any order
   return found;
 }
 
@@ -159,12 +160,12 @@ void OutputFolder::check(const std::vector<fs::path>& inputs) const
   if (folder_.empty())
     throw InputError("output folder: no name is given. Use --output DIR.");
 
-  // the folder itself or, if it is yet to be made, the nearest that is there
+  // the folder itself or, if it does not exist yet, the nearest parent that does
   std::error_code error;
   fs::path there = fs::absolute(folder_, error).lexically_normal();
   if (error)
-    refuse(folder_, "cannot be placed: the working folder is gone (" + error.message() +
-                        "). Use an absolute path.");
+    refuse(folder_, "cannot be located: the working folder no longer exists (" +
+                        error.message() + "). Use an absolute path.");
   while (!fs::exists(fs::symlink_status(there, error)) && there.has_relative_path()) {
     if (error == std::errc::filename_too_long)
       refuse(folder_, "cannot be created: " + error.message() +
@@ -175,7 +176,7 @@ void OutputFolder::check(const std::vector<fs::path>& inputs) const
     const std::string remedy = ". Choose another folder with --output.";
     if (error == std::errc::permission_denied)
       refuse(folder_, "cannot be reached: " + error.message() + remedy);
-    refuse(folder_, in_quotes(there.string()) + " is in its way and is no folder" + remedy);
+    refuse(folder_, in_quotes(there.string()) + " exists and is not a folder" + remedy);
   }
   if (::access(there.c_str(), W_OK | X_OK) != 0)
     refuse(folder_, "cannot be written: " + std::generic_category().message(errno) +
@@ -194,7 +195,7 @@ void OutputFolder::check(const std::vector<fs::path>& inputs) const
   for (const fs::path& old : earlier)
     for (const fs::path& input : inputs) {
       if (input.empty()) continue;
-      std::error_code no_input, no_old; // what cannot be reached is not read either
+      std::error_code no_input, no_old; // an unreachable file is not read
       const fs::path relative = fs::weakly_canonical(input, no_input)
                                     .lexically_relative(fs::weakly_canonical(old, no_old));
       if (no_input || no_old) continue;
@@ -214,7 +215,7 @@ void OutputFolder::commit(const std::vector<fs::path>& inputs)
                         ". Choose another folder with --output.");
   if (!lock_.is_held()) {
     lock_ = FolderLock(folder_);
-    check(inputs); // another run may have come and gone
+    check(inputs); // another run may have written there since
   }
   if (earlier_ == Earlier::go_on) return;
   for (const fs::path& old : left_by_earlier_run()) {
@@ -230,7 +231,7 @@ void OutputFolder::commit(const std::vector<fs::path>& inputs)
 OwnFiles own_files_in(const fs::path& folder)
 {
   OwnFiles found;
-  std::error_code error; // what cannot be looked into holds nothing for us
+  std::error_code error; // a folder that cannot be read counts as empty
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const fs::path name = entry->path().filename();
@@ -244,14 +245,15 @@ OwnFiles own_files_in(const fs::path& folder)
   return found;
 }
 
-std::vector<fs::path> OutputFolder::cut_back(std::size_t n_frames, std::uint64_t step) const
+std::vector<fs::path> OutputFolder::remove_after(std::size_t n_frames,
+                                                 std::uint64_t step) const
 {
   std::vector<fs::path> set_aside;
   for (const fs::path& file : left_by_earlier_run()) {
     const fs::path name = file.filename();
     if (dem::is_checkpoint_name(name) && dem::is_later(name, dem::checkpoint_name(step))) {
       set_aside.push_back(name_aside(file));
-      std::error_code error; // left in its place it would be taken for this run's
+      std::error_code error; // under its old name it would count as one of this run
       fs::rename(file, set_aside.back(), error);
       if (error)
         throw NumericalError(file.string() + ": cannot be set aside as " +
@@ -260,7 +262,7 @@ std::vector<fs::path> OutputFolder::cut_back(std::size_t n_frames, std::uint64_t
                              "with --output.");
       continue;
     }
-    std::error_code ignored; // what stays is written again, alike
+    std::error_code ignored; // a file that stays is written again, with the same content
     if (final_name(name) != name || name == "summary.json" || name == "failed.json" ||
         (is_own_field(name) && frame_of(name) >= n_frames))
       fs::remove(file, ignored);

@@ -49,8 +49,8 @@ ProgressOutput ProgressOutput::standard()
   return output;
 }
 
-Progress::Progress(std::string stage, ProgressOutput output)
-    : stage_(std::move(stage)), output_(std::move(output)), start_(output_.clock()),
+Progress::Progress(std::string phase, ProgressOutput output)
+    : phase_(std::move(phase)), output_(std::move(output)), start_(output_.clock()),
       shown_(start_), measured_(start_)
 {
 }
@@ -68,8 +68,8 @@ void Progress::update(double fraction, const std::function<std::string()>& detai
 
   const double elapsed = now - start_, interval = now - measured_;
   const double window = std::max(10.0, 0.1 * elapsed);
-  // while all of the stage fits the window its mean rate is the estimate, and later its
-  // start
+  // Until the window is full, the mean rate since the start is the estimate; smoothing
+  // starts from it.
   if (elapsed <= window)
     rate_ = fraction / elapsed;
   else
@@ -81,7 +81,7 @@ void Progress::update(double fraction, const std::function<std::string()>& detai
   char percent[32];
   std::snprintf(percent, sizeof percent, "%5.1f %%",
                 100.0 * std::clamp(fraction, 0.0, 1.0));
-  std::string line = stage_ + "  " + percent;
+  std::string line = phase_ + "  " + percent;
   if (const std::string text = detail(); !text.empty()) line += "  " + text;
   if (elapsed >= settling && rate_ > 0.0 && fraction < 1.0)
     line += "  " + duration_text((1.0 - fraction) / rate_) + " left";
@@ -95,7 +95,7 @@ void Progress::update(double fraction, const std::string& detail)
 
 void Progress::done(const std::string& detail)
 {
-  const std::string line = stage_ + "  done  " + (detail.empty() ? "" : detail + "  ") +
+  const std::string line = phase_ + "  done  " + (detail.empty() ? "" : detail + "  ") +
                            "in " + duration_text(output_.clock() - start_);
   show(line);
   if (output_.is_terminal) *output_.out << std::endl;
@@ -110,7 +110,7 @@ void Progress::show(const std::string& line)
   }
   std::string text = line.substr(0, output_.columns);
   const std::size_t length = text.size();
-  text.resize(std::max(length, line_length_), ' '); // wipe what a longer line left
+  text.resize(std::max(length, line_length_), ' '); // overwrite the rest of a longer line
   *output_.out << '\r' << text << std::flush;
   line_length_ = length;
 }

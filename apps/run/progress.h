@@ -1,4 +1,4 @@
-/// One line that says how far a stage is and how long it still takes.
+/// One line with the progress of a phase of a run and the time left.
 #pragma once
 
 #include <cstddef>
@@ -14,44 +14,47 @@ std::string duration_text(double seconds);
 /// Where a progress line goes.
 struct ProgressOutput {
   std::ostream* out = nullptr;
-  /// On a terminal one line is rewritten, at most 5 times a second; else a line every 10 s.
+  /// A terminal has one line, rewritten at most 5 times a second; else one line every 10 s.
   bool is_terminal = false;
   std::size_t columns = 79;      ///< longest line on a terminal; it must not wrap
-  std::function<double()> clock; ///< seconds since any instant, never going back
+  std::function<double()> clock; ///< seconds since any instant, never decreasing
 
-  /// std::cout as it is: a terminal of some width, or a file or pipe.
+  /// std::cout, with the width of the terminal where it is one.
   static ProgressOutput standard();
 };
 
-/// Progress of one stage:
+/// Progress of one phase of a run:
 ///
-///     driving  41.2 %  depth 1.15 mm (0.82 D_p)  1 min 20 s left
+///     penetration  41.2 %  depth 1.15 mm (0.82 D_p)  1 min 20 s left
 ///
-/// The time left comes from the smoothed rate of the last tenth of the run, 10 s at least;
-/// it is left out for the first two seconds. Destruction ends an open line, so that an
-/// error message starts in a line of its own.
+/// The time left follows from the rate smoothed over the last tenth of the elapsed time, 10 s
+/// or more; it is not shown in the first two seconds. The destructor ends an open line,
+/// so that an error message starts on a new line.
 class Progress {
 public:
-  explicit Progress(std::string stage, ProgressOutput output = ProgressOutput::standard());
+  explicit Progress(std::string phase, ProgressOutput output = ProgressOutput::standard());
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// @param fraction done of the stage, 0 to 1; may be called every step
-  /// @param detail   what stands between fraction and time left; called only when shown
+  /// May be called every step.
+  /// @param fraction part of the phase that is done, 0 to 1
+  /// @param detail   text between fraction and time left; called only when a line is
+  ///   printed
   void update(double fraction, const std::function<std::string()>& detail);
   void update(double fraction, const std::string& detail = "");
 
-  /// Close the stage: "driving  done  <detail>  in 3 min 2 s". Once.
+  /// Report the end of the phase: "penetration  done  <detail>  in 3 min
+  /// 2 s". Call it once.
   void done(const std::string& detail = "");
 
 private:
   void show(const std::string& line);
 
-  std::string stage_;
+  std::string phase_;
   ProgressOutput output_;
-  double start_, shown_;                      ///< instants [s]
-  double measured_, measured_fraction_ = 0.0; ///< where the rate was last taken
+  double start_, shown_;                      ///< clock at the start and the last line [s]
+  double measured_, measured_fraction_ = 0.0; ///< at the last update of the rate
   double rate_ = 0.0;                         ///< smoothed, fraction per second
   std::size_t line_length_ = 0;               ///< of the open line on a terminal
 };

@@ -1,4 +1,5 @@
-/// What only one of several ranks does, or meets: files, and words to the user.
+/// Work of single ranks, such as files and messages to the user, whose failures all ranks
+/// share.
 #pragma once
 
 #include "dem/collective_failure.h"
@@ -21,7 +22,7 @@ inline bool is_first_rank()
   return rank_of_world() == 0;
 }
 
-/// Give every rank the text of one.
+/// Give every rank the text of rank `from`. Collective.
 inline void share(std::string& text, int from = 0)
 {
   auto length = static_cast<unsigned long long>(text.size());
@@ -30,18 +31,19 @@ inline void share(std::string& text, int from = 0)
   MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, from, MPI_COMM_WORLD);
 }
 
-/// Run `body`, which must not be collective, on the ranks where `is_mine`. What it throws as
-/// bad input (InputError) or as a failure of run or system (CollectiveFailure) is thrown on
-/// all ranks alike, that of the lowest rank; any other exception goes on where it is.
-template <class Body>
-void on_ranks(bool is_mine, Body&& body)
+/// Run `task`, which must not be collective, on the ranks where `is_mine`. When it throws
+/// bad input (std::invalid_argument) or a failure of run or system (std::runtime_error),
+/// all ranks throw the message of the lowest such rank, as InputError or CollectiveFailure.
+/// Any other exception leaves on its own rank only. Collective.
+template <class Task>
+void on_ranks(bool is_mine, Task&& task)
 {
   std::string message;
   bool is_input = false;
   if (is_mine) {
     try {
-      body();
-    } catch (const std::invalid_argument& error) { // as run_guard.h sees bad input
+      task();
+    } catch (const std::invalid_argument& error) { // bad input, as in run_guard.h
       is_input = true;
       message = *error.what() ? error.what() : "bad input";
     } catch (const std::runtime_error& error) {
@@ -61,18 +63,19 @@ void on_ranks(bool is_mine, Body&& body)
   throw CollectiveFailure(message);
 }
 
-/// Run `body` on the first rank while the others wait.
-template <class Body>
-void on_first_rank(Body&& body)
+/// Run `task` on the first rank while the others wait. Collective.
+template <class Task>
+void on_first_rank(Task&& task)
 {
-  on_ranks(is_first_rank(), body);
+  on_ranks(is_first_rank(), task);
 }
 
-/// Run `body` on every rank: say, read a file that one of them may not see.
-template <class Body>
-void on_every_rank(Body&& body)
+/// Run `task` on every rank, for example to read a file that one of them may not see.
+/// Collective.
+template <class Task>
+void on_every_rank(Task&& task)
 {
-  on_ranks(true, body);
+  on_ranks(true, task);
 }
 
 } // namespace mergel::apps

@@ -16,15 +16,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A results folder may still have to be made.
+/// Whether `place` is a file; what does not exist counts as one if its name ends in .h5.
 bool names_file(const fs::path& place)
 {
-  std::error_code error; // what cannot be reached is refused where it is read
+  std::error_code error; // an unreachable path is refused where it is read
   const fs::file_status status = fs::status(place, error);
   return fs::exists(status) ? !fs::is_directory(status) : place.extension() == ".h5";
 }
 
-/// @throws InputError when the folder is there and cannot be looked into
+/// @throws InputError when the folder exists and cannot be read
 void require_readable(const fs::path& folder)
 {
   std::error_code error;
@@ -42,14 +42,13 @@ Restart read_file(const fs::path& file)
     const fs::path folder = folder_to_restart(file);
     const dem::FoundCheckpoint other = dem::newest_checkpoint(folder);
     throw InputError("--restart " + file.string() + ": " + e.what() +
-                     (other.file.empty()
-                          ? "; there is no other checkpoint beside it that can be read"
-                          : "; a good one is " + other.file.string()));
+                     (other.file.empty() ? "; no other checkpoint in its folder can be read"
+                                         : "; a good one is " + other.file.string()));
   }
 }
 
-/// The newest good checkpoint of a folder. Nothing behind which the run could not go back.
-/// @throws InputError
+/// The newest good checkpoint of a folder; newer ones may be damaged.
+/// @throws InputError when a newer one cannot be read for another reason, or none is good
 Restart read_folder(const fs::path& place)
 {
   const std::string in_front = "--restart " + place.string() + ": ";
@@ -59,18 +58,18 @@ Restart read_folder(const fs::path& place)
     refused.push_back(r.file.string() + ": " + r.reason);
     if (!r.is_damaged)
       throw InputError(
-          in_front + refused.back() + ". It may be whole, so the run does not go back " +
-          "behind it: make it readable" +
+          in_front + refused.back() + ". It may be complete, so the run does not " +
+          "continue from an older one: make it readable" +
           (newest.file.empty()
                ? std::string(".")
-               : ", or take an older one with --restart " + newest.file.string() + "."));
+               : ", or choose an older one with --restart " + newest.file.string() + "."));
   }
   if (newest.file.empty())
     throw InputError(in_front + "no checkpoint can be read: " + joined(refused, "; "));
   return {newest.file, place, std::move(newest.checkpoint), std::move(refused)};
 }
 
-/// On the first rank alone.
+/// On the first rank only.
 std::optional<Restart> choose(const fs::path& place, const std::string& job)
 {
   std::optional<Restart> found;
@@ -100,7 +99,7 @@ FolderLock hold_restarted(const JobOptions& options)
 {
   FolderLock lock;
   on_first_rank([&] {
-    std::error_code error; // a folder that is not there holds no checkpoint
+    std::error_code error; // a folder that does not exist has no checkpoint
     if (!options.restart.empty() && fs::is_directory(options.output, error) &&
         fs::equivalent(options.output, folder_to_restart(options.restart), error))
       lock = FolderLock(options.output);
@@ -145,8 +144,8 @@ void read_case(CaseFile& file, const JobOptions& options,
   std::error_code error;
   if (!fs::is_regular_file(resolved, error))
     throw InputError("--restart " + options.restart.string() +
-                     ": holds neither a checkpoint nor a resolved.prm. Give the case file "
-                     "to begin.");
+                     ": holds neither a checkpoint nor a resolved.prm. Name the case file "
+                     "to begin a run.");
   file.read(resolved, options.set);
 }
 
@@ -200,7 +199,7 @@ OutputFolder folder_to_begin_in(const JobOptions& options)
 
 namespace {
 
-/// On the first rank alone.
+/// On the first rank only.
 OutputFolder chosen_folder(const JobOptions& options, const std::optional<Restart>& restart)
 {
   std::error_code error;
@@ -235,8 +234,8 @@ fs::path checkpoint_in(const fs::path& folder, const Restart& restart)
 
 namespace {
 
-/// Bring the checkpoint into the folder where the run goes on, if that is another.
-void bring_along(const Restart& restart, const fs::path& folder)
+/// Copy the checkpoint to the folder where the run continues, if that is another.
+void copy_checkpoint(const Restart& restart, const fs::path& folder)
 {
   const fs::path &checkpoint = restart.file, there = checkpoint_in(folder, restart);
   std::error_code error;
@@ -246,22 +245,23 @@ void bring_along(const Restart& restart, const fs::path& folder)
     fs::copy_file(checkpoint, file, fs::copy_options::overwrite_existing, failed);
     if (failed)
       throw NumericalError(there.string() +
-                           ": the checkpoint cannot be brought along: " + failed.message() +
+                           ": the checkpoint cannot be copied there: " + failed.message() +
                            ". Check the permissions of both folders and the free space, "
-                           "or go on in the folder where it is, without --output.");
+                           "or continue in its own folder, without --output.");
   });
 }
 
 } // namespace
 
-void go_on_in(OutputFolder& folder, const std::vector<std::filesystem::path>& inputs,
-              const CaseFile& file, const Restart& restart)
+void prepare_continued_folder(OutputFolder& folder,
+                              const std::vector<std::filesystem::path>& inputs,
+                              const CaseFile& file, const Restart& restart)
 {
   folder.commit(inputs);
-  // Without it the folder would look like that of a run that has only begun.
-  bring_along(restart, folder.path());
+  // Without it the folder would look like that of a run without checkpoints.
+  copy_checkpoint(restart, folder.path());
   const std::size_t n_frames = Frames::count(restart.checkpoint.state);
-  for (const auto& set_aside : folder.cut_back(n_frames, restart.checkpoint.label.step))
+  for (const auto& set_aside : folder.remove_after(n_frames, restart.checkpoint.label.step))
     std::cout << "set aside: " << set_aside.string() << '\n';
   file.write_resolved(folder.path() / "resolved.prm");
 }
@@ -271,7 +271,7 @@ std::string report(const Restart& restart)
   const dem::CheckpointLabel& label = restart.checkpoint.label;
   std::ostringstream out;
   for (const std::string& file : restart.refused) out << "cannot be used: " << file << '\n';
-  out << "restart from " << restart.file.string() << ": " << label.stage << ", step "
+  out << "restart from " << restart.file.string() << ": " << label.phase << ", step "
       << label.step << ", t = " << 1e3 * label.time << " ms";
   if (label.program != MERGEL_VERSION)
     out << "; written by mergel " << label.program

@@ -1,4 +1,5 @@
-/// --restart: finding the checkpoint, and comparing its case with the one that is to go on.
+/// --restart: finding the checkpoint, and comparing its case with that of the continued
+/// run.
 #pragma once
 
 #include "apps/case/case_file.h"
@@ -12,54 +13,55 @@
 
 namespace mergel::apps {
 
-/// Keep other runs out of the folder that is to go on, before its checkpoints are looked
-/// at: a run that is just ending may write another one. Nothing is held when --restart and
-/// --output name different folders, or none that is there. Collective; the first rank
-/// holds it.
+/// Lock the results folder of the run to continue before its checkpoints are read, because
+/// a run that is just ending may write another one. Locks nothing when --restart and
+/// --output name different folders, or a folder that does not exist. Collective; the first
+/// rank holds the lock.
 /// @throws InputError naming the run that writes there
 FolderLock hold_restarted(const JobOptions& options);
 
-/// What a run goes on from.
+/// The checkpoint that a run continues from.
 struct Restart {
   std::filesystem::path file;   ///< the checkpoint
-  std::filesystem::path folder; ///< results of the earlier run: where the file is
+  std::filesystem::path folder; ///< results of the earlier run, and the file
   dem::Checkpoint checkpoint;
   std::vector<std::string> refused; ///< newer checkpoints that are damaged, and how
-  std::vector<CaseFile::Change> changed = {}; ///< keys of the case since, by check_case()
+  std::vector<CaseFile::Change> changed = {}; ///< keys changed since then, by check_case()
 };
 
 /// The checkpoint at `place`: the file, or the newest good one of a folder. Nothing when
-/// `place` is empty, or a folder without checkpoints: then the run begins. Collective: the
-/// first rank chooses for all.
-/// @throws InputError when what is there cannot be read, naming an older good one beside
-///   it; when a newer one cannot be read and is not damaged: it may be whole, for another
-///   user or program; when it is of another job, or another file for another rank
+/// `place` is empty, or a folder without checkpoints: then a new run begins. Collective:
+/// the first rank chooses for all.
+/// @throws InputError when the file cannot be read, naming a good one of its folder; when a
+///   newer one of a folder cannot be read although it is not damaged: another user or
+///   program may be able to read it; when it is of another job; when the ranks read
+///   different files
 std::optional<Restart> find_restart(const std::filesystem::path& place,
                                     const std::string& job);
 
-/// The results folder that --restart names: a folder, or where a checkpoint lies.
+/// The results folder that --restart names: the folder itself, or that of the checkpoint.
 std::filesystem::path folder_to_restart(const std::filesystem::path& place);
 
-/// Read the case that goes on: of the options, else of the checkpoint, else resolved.prm of
-/// the folder that is to be restarted.
+/// Read the case to run: from the case file of the options, else from the checkpoint, else
+/// from resolved.prm of the folder to restart.
 void read_case(CaseFile& file, const JobOptions& options,
                const std::optional<Restart>& restart);
 
 /// Compare the case with that of the checkpoint, for restart.changed.
 /// @param free the keys that may change, "Section/key"
-/// @throws InputError naming another key that has changed: "was X, the case asks for Y"; when
-///   `Motion/time step safety` was raised: the time step only falls in a run
+/// @throws InputError naming another key that has changed: "was X, the case asks for Y";
+///   when `Motion/time step safety` was raised: the time step of a run never grows
 void check_case(const CaseFile& file, Restart& restart,
                 const std::vector<std::string>& free);
 
-/// Read the case of a job that writes checkpoints, and find what it goes on from, if it
-/// does. Collective.
+/// Read the case of a job that writes checkpoints, and find the checkpoint that it
+/// continues from, if there is one. Collective.
 /// @param free the keys that a restart may change, "Section/key"
-/// @throws InputError as the functions above, and as complete() of the case; when the ranks
-///   read different cases
+/// @throws InputError as the functions above and complete() of the case do, and when the
+///   ranks read different cases
 template <class Case>
-std::optional<Restart> take_up(CaseFile& file, Case& c, const JobOptions& options,
-                               const std::string& job, const std::vector<std::string>& free)
+std::optional<Restart> resume(CaseFile& file, Case& c, const JobOptions& options,
+                              const std::string& job, const std::vector<std::string>& free)
 {
   std::optional<Restart> restart = find_restart(options.restart, job);
   declare(file, c);
@@ -72,42 +74,43 @@ std::optional<Restart> take_up(CaseFile& file, Case& c, const JobOptions& option
   return restart;
 }
 
-/// Files that a run reads after its folder was looked at: its case, and its checkpoint or,
-/// when it begins, `others` as far as they are named.
+/// Files that a run reads after its folder was checked: the case file unless --restart is
+/// given, and the checkpoint or, for a new run, those of `others` that are not empty.
 std::vector<std::filesystem::path>
 inputs_of(const JobOptions& options, const std::optional<Restart>& restart,
           const std::vector<std::filesystem::path>& others);
 
-/// For a run that begins again: the folder of an earlier run may be used that was ended before
-/// its first checkpoint.
+/// The results folder of a new run. With --restart it may hold an earlier run that was
+/// ended before its first checkpoint.
 OutputFolder folder_to_begin_in(const JobOptions& options);
 
-/// The folder of the run, that of the checkpoint or one to begin in, looked at by the first
+/// The results folder of the run, that of the checkpoint or another, checked by the first
 /// rank. Collective.
 /// @param lock from hold_restarted()
 /// @throws InputError as OutputFolder::check()
 OutputFolder folder_of(const JobOptions& options, const std::optional<Restart>& restart,
                        const std::vector<std::filesystem::path>& inputs, FolderLock lock);
 
-/// Where the checkpoint is once the folder is made ready: brought into another folder it gets
-/// the name of its step, whatever it was called.
+/// Path of the checkpoint in the folder where the run continues. Copied to another folder,
+/// it is named after its step.
 std::filesystem::path checkpoint_in(const std::filesystem::path& folder,
                                     const Restart& restart);
 
-/// Make a folder ready to go on in: the checkpoint is brought along first, if it is
-/// another folder, so that a run that is killed on the way can never be taken for one
-/// without; what the run wrote behind the checkpoint goes, newer checkpoints are set
-/// aside, which is said, and the resolved case is written. On the first rank.
+/// Prepare the folder where the run continues. To another folder the checkpoint is copied
+/// first: if the run is killed meanwhile, its folder has a checkpoint. Then files written
+/// after the checkpoint are removed, newer checkpoints are set aside and named on
+/// std::cout, and the resolved case is written. On the first rank.
 /// @param inputs as of OutputFolder::commit()
-void go_on_in(OutputFolder& folder, const std::vector<std::filesystem::path>& inputs,
-              const CaseFile& file, const Restart& restart);
+void prepare_continued_folder(OutputFolder& folder,
+                              const std::vector<std::filesystem::path>& inputs,
+                              const CaseFile& file, const Restart& restart);
 
-/// Whether the case that goes on has another value for this key.
+/// Whether the case of the continued run has another value for this key.
 bool has_changed(const Restart& restart, const std::string& section,
                  const std::string& key);
 
-/// What the user should know: where the run goes on, what could not be read, what has
-/// changed.
+/// Message to the user: checkpoints that cannot be used, the one that the run continues
+/// from, and changed keys.
 std::string report(const Restart& restart);
 
 } // namespace mergel::apps

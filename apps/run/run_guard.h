@@ -1,4 +1,5 @@
-/// The last catch of a program: one message and the exit code of whatever went wrong.
+/// The outermost catch of a program: prints one message and gives the exit code of a
+/// failure.
 ///
 ///   0 done   1 bad input   2 numerical or system failure   3 bug
 ///
@@ -28,7 +29,7 @@ enum ExitCode : int { exit_done = 0, exit_input = 1, exit_failure = 2, exit_bug 
 struct Verdict {
   int code;
   std::string message;        ///< one line
-  bool is_collective = false; ///< found alike on all ranks
+  bool is_collective = false; ///< the same on all ranks
 };
 
 /// Judge the exception that is being handled. @pre called from a catch block
@@ -45,11 +46,11 @@ inline Verdict judge_current_exception()
   } catch (const std::bad_alloc&) {
     return {exit_failure,
             "out of memory. Use fewer particles (a larger S) or a coarser mesh, "
-            "or a machine with more"};
+            "or a machine with more memory"};
   } catch (const std::exception& error) {
     const std::string text = in_one_line(error.what());
-    // dealii::ExceptionBase is known by its text only: this header stays free of deal.II
-    // in Release it is thrown by checks of a run, not of the program.
+    // dealii::ExceptionBase is recognised by its text, because this header does not include
+    // deal.II. In Release it is thrown by checks of a run, not of the program.
     if (text.find("An error occurred in line <") != std::string::npos &&
         text.find("ExcInternalError") == std::string::npos)
       return {exit_failure, text};
@@ -61,7 +62,8 @@ inline Verdict judge_current_exception()
   }
 }
 
-/// The rank that the launcher gave this process, known before MPI is up; -1 without one.
+/// The rank that the launcher gave this process, known before MPI_Init; -1 without a
+/// launcher.
 inline int launched_rank()
 {
   for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
@@ -69,10 +71,10 @@ inline int launched_rank()
   return -1;
 }
 
-/// The way out of a program on several ranks: all together, or none.
+/// Exit of a program on several ranks: tells whether all ranks leave.
 class Exit {
 public:
-  /// Collective where MPI is up.
+  /// Collective where MPI is initialised.
   Exit()
   {
     int is_up = 0, is_down = 0;
@@ -93,14 +95,14 @@ public:
   int rank() const { return rank_; }
   bool is_alone() const { return n_ranks_ == 1; }
 
-  /// Wait for the others here. False when one of them has not come after `patience`: it
-  /// waits in a message for us.
-  bool all_come(std::chrono::milliseconds patience) const
+  /// Wait for the other ranks. False when one of them has not arrived after `patience`: it
+  /// is waiting for a message from this rank.
+  bool all_arrive(std::chrono::milliseconds timeout) const
   {
     if (is_alone()) return true;
     MPI_Request all;
     MPI_Ibarrier(waiting_, &all);
-    const auto end = std::chrono::steady_clock::now() + patience;
+    const auto end = std::chrono::steady_clock::now() + timeout;
     for (int have_come = 0;;) {
       MPI_Test(&all, &have_come, MPI_STATUS_IGNORE);
       if (have_come) return true;
@@ -110,37 +112,38 @@ public:
   }
 
 private:
-  MPI_Comm waiting_ = MPI_COMM_NULL; ///< nothing else is said in it
+  MPI_Comm waiting_ = MPI_COMM_NULL; ///< used for nothing else
   int rank_ = 0, n_ranks_ = 1;
 };
 
-/// Run `body` and return its exit code, or print what it threw on std::cerr and return the
-/// code of that.
+/// Run `task` and return its exit code, or print the message of its exception on std::cerr
+/// and return the exit code of that.
 ///
-/// Call it while MPI is up if the body uses MPI: an exception must not unwind past
-/// MPI_Finalize. Bad input is found alike on all ranks, and so is a CollectiveFailure: rank
-/// 0 speaks and all return. A rank that the others do not follow within `patience`, and any
-/// other exception, would leave the others waiting: it names its rank and calls MPI_Abort.
-template <class Body>
-int run_guarded(const Body& body,
-                std::chrono::milliseconds patience = std::chrono::seconds(20))
+/// Call it while MPI is initialised if the task uses MPI: an exception must not unwind past
+/// MPI_Finalize. Bad input and a CollectiveFailure are the same on all ranks: rank 0 prints
+/// the message and all return. Any other exception, or one that the other ranks do not
+/// share within `patience`, would leave them waiting: the rank prints its number and calls
+/// MPI_Abort.
+template <class Task>
+int run_guarded(const Task& task,
+                std::chrono::milliseconds timeout = std::chrono::seconds(20))
 {
   const Exit exit;
   try {
-    return body();
+    return task();
   } catch (...) {
     const Verdict verdict = judge_current_exception();
 
     int is_up = 0;
     MPI_Initialized(&is_up);
     if (!is_up && launched_rank() >= 0) {
-      // The launcher ends the job at the first exit: the first rank must have spoken by then.
+      // The launcher ends the job at the first exit: rank 0 must have printed by then.
       MPI_Init(nullptr, nullptr);
       if (launched_rank() == 0) std::cerr << verdict.message << std::endl;
       MPI_Finalize();
       return verdict.code;
     }
-    if (exit.is_alone() || (verdict.is_collective && exit.all_come(patience))) {
+    if (exit.is_alone() || (verdict.is_collective && exit.all_arrive(timeout))) {
       if (exit.rank() == 0) std::cerr << verdict.message << std::endl;
       return verdict.code;
     }

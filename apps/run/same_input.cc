@@ -10,7 +10,7 @@ namespace mergel::apps {
 namespace {
 
 const char* const remedy =
-    "Put it into a folder that all nodes share, and leave it as it is "
+    "Put it into a folder that all nodes share, and do not change it "
     "while the run starts.";
 
 } // namespace
@@ -41,7 +41,7 @@ void require_same_bytes(std::uint64_t sum, const std::string& name)
   MPI_Bcast(&first, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
   on_every_rank([&] {
     if (first != sum)
-      throw InputError(name + ": holds something else here than on the first rank. " +
+      throw InputError(name + ": its content differs from that on the first rank. " +
                        remedy);
   });
 }

@@ -10,7 +10,7 @@ namespace mergel::apps {
 
 namespace {
 
-constexpr double patience = 5.0; ///< with a slow network file system [s]
+constexpr double timeout = 5.0; ///< longest wait for a slow network file system [s]
 
 } // namespace
 
@@ -18,7 +18,7 @@ void require_shared(const std::filesystem::path& folder)
 {
   const dem::Communicator all(MPI_COMM_WORLD);
   if (all.is_alone()) return;
-  // Left over by a killed run it is removed as its resolved case would be.
+  // The temporary file of resolved.prm: the next run removes one that a killed run left.
   const auto path = dem::temporary_name(folder / "resolved.prm");
   const dem::Writer me = dem::this_writer(all);
   std::vector<dem::FileMark> mark;
@@ -34,7 +34,7 @@ void require_shared(const std::filesystem::path& folder)
   try {
     on_every_rank([&] {
       try {
-        dem::require_mark(path, folder, mark.front(), me, patience);
+        dem::require_mark(path, folder, mark.front(), me, timeout);
       } catch (const NumericalError& e) {
         throw InputError(std::string("output folder ") + e.what());
       }

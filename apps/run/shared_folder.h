@@ -1,13 +1,13 @@
-/// A results folder is one and the same for all ranks.
+/// Checks that all ranks see the same results folder.
 #pragma once
 
 #include <filesystem>
 
 namespace mergel::apps {
 
-/// Make a file there, look for it on every rank and remove it again: checkpoints are
-/// written by all ranks at once, and the first of them is too late to learn that a node
-/// has a folder of its own under that name. Collective; on one rank nothing is done.
+/// Create a file there, look for it on every rank and remove it. All ranks write a
+/// checkpoint together, so without this check a node with another folder under that name
+/// would be found only at the first checkpoint. Collective; does nothing on one rank.
 /// @throws InputError naming a rank and its node
 void require_shared(const std::filesystem::path& folder);
 

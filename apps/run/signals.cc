@@ -17,7 +17,7 @@ void handle(int number, void (*handler)(int))
 {
   struct sigaction action = {};
   action.sa_handler = handler;
-  action.sa_flags = SA_RESTART; // a write under way goes on
+  action.sa_flags = SA_RESTART; // a write in progress is completed
   sigemptyset(&action.sa_mask);
   sigaction(number, &action, nullptr);
 }
@@ -35,7 +35,7 @@ Signals::Signals()
 Signals::~Signals()
 {
   handle(SIGTERM, SIG_DFL);
-  handle(SIGUSR1, SIG_IGN); // a late one asks for nothing
+  handle(SIGUSR1, SIG_IGN); // one that comes later has no effect
 }
 
 bool Signals::wants_stop() const

@@ -1,4 +1,4 @@
-/// mergel sample: make a specimen and write it to a file that later runs read.
+/// mergel sample: makes a specimen and writes it to a file that later runs read.
 #include "apps/case/case_scan.h"
 #include "apps/coupled/coupled_system.h"
 #include "apps/pile/pile_case.h"
@@ -16,7 +16,7 @@ namespace mergel::apps {
 
 namespace {
 
-/// A case that is a specimen and nothing else.
+/// A case with a specimen only.
 struct SampleCase {
   SpecimenKeys specimen;
   dem::LinearMaterial contact;
@@ -30,7 +30,7 @@ void declare(CaseFile& file, SampleCase& c)
   declare(file, c.contact);
   const auto section = file.section("Motion");
   file.flag("free rotation", c.specimen.specimen.free_rotation,
-            "Let grains without a living bond spin; the paper holds them.");
+            "Let particles without an intact bond rotate; in the paper they do not.");
 }
 
 /// Whether the case is one of `mergel pile`, whose specimen is made inside its walls.
@@ -49,25 +49,25 @@ bool is_pile_case(const JobOptions& options)
   return shape == "half cylinder";
 }
 
-/// Grains and bonds as a rock at rest, for the writers of fields.
-dem::Rock as_rock(const SpecimenKeys& k, const dem::Sample& sample)
+/// Particles and bonds as an assembly at rest, for the writers of fields.
+dem::Assembly as_assembly(const SpecimenKeys& k, const dem::Sample& sample)
 {
-  dem::Rock rock;
-  rock.particles = sample.packing.particles;
-  rock.cell = sample.packing.cell;
-  rock.material.contact = k.specimen.contact;
-  rock.bonds = dem::make_bonds(rock.particles, rock.cell, sample.bonding.pairs);
-  return rock;
+  dem::Assembly assembly;
+  assembly.particles = sample.packing.particles;
+  assembly.cell = sample.packing.cell;
+  assembly.material.contact = k.specimen.contact;
+  assembly.bonds = dem::make_bonds(assembly.particles, assembly.cell, sample.bonding.pairs);
+  return assembly;
 }
 
-void write_pictures(const std::filesystem::path& folder, const dem::Rock& rock)
+void write_pictures(const std::filesystem::path& folder, const dem::Assembly& assembly)
 {
   std::filesystem::create_directories(folder / "fields");
   std::vector<dem::Vec3> x;
-  for (const dem::Body& b : rock.particles.body) x.push_back(b.x);
-  dem::write_particles(folder / "fields/particles_0000.vtp", rock, x);
+  for (const dem::ParticleState& b : assembly.particles.state) x.push_back(b.x);
+  dem::write_particles(folder / "fields/particles_0000.vtp", assembly, x);
   dem::Series(folder / "particles.pvd").add(0.0, "fields/particles_0000.vtp");
-  dem::write_bonds(folder / "fields/bonds_0000.vtp", rock);
+  dem::write_bonds(folder / "fields/bonds_0000.vtp", assembly);
   dem::Series(folder / "bonds.pvd").add(0.0, "fields/bonds_0000.vtp");
 }
 
@@ -78,7 +78,7 @@ void refuse_sample(const CaseFile& file, const SpecimenKeys& k)
                 "mergel sample makes the specimen: leave the key empty");
 }
 
-/// Make it, say what it is and write it.
+/// Make the specimen, print its report and write its files.
 void make(const CaseFile& file, const SpecimenKeys& k, OutputFolder& folder,
           const std::vector<std::filesystem::path>& inputs)
 {
@@ -89,7 +89,7 @@ void make(const CaseFile& file, const SpecimenKeys& k, OutputFolder& folder,
     folder.commit(inputs);
     file.write_resolved(folder.path() / "resolved.prm");
     dem::write_sample(path, sample);
-    write_pictures(folder.path(), as_rock(k, sample));
+    write_pictures(folder.path(), as_assembly(k, sample));
     dem::replace_file(folder.path() / "summary.json", summary(k, sample));
   });
   std::cout << "specimen: " << path.string()
@@ -100,11 +100,10 @@ void make(const CaseFile& file, const SpecimenKeys& k, OutputFolder& folder,
 
 void help_sample(std::ostream& out)
 {
-  out << "A case with a section Pile, or with `shape = half cylinder`, is one of mergel "
-         "pile: "
-         "its\nspecimen is made inside the walls that its run will have; mergel pile "
-         "--help "
-         "lists its keys.\nKeys of all other cases:\n\n";
+  out << "A case with a section Pile, or with `shape = half cylinder`, is a case of mergel "
+         "pile.\nIts specimen is made inside the walls of its run; mergel pile --help "
+         "lists "
+         "its keys.\nKeys of all other cases:\n\n";
   CaseFile file;
   SampleCase c;
   declare(file, c);
@@ -118,7 +117,7 @@ int run_sample(const JobOptions& options)
   on_first_rank([&] { folder = folder_to_begin_in(options); });
   on_every_rank([&] { is_pile = is_pile_case(options); });
   MPI_Bcast(&is_pile, 1, MPI_CXX_BOOL, 0,
-            MPI_COMM_WORLD); // they compare what they read below
+            MPI_COMM_WORLD); // require_same_case() below compares the cases
   CaseFile file;
   if (is_pile) {
     PileCase c;
@@ -126,13 +125,13 @@ int run_sample(const JobOptions& options)
     on_every_rank([&] {
       read_case(file, options, std::nullopt);
       complete(file, c);
-      refuse_sample(file, c.rock);
+      refuse_sample(file, c.assembly);
     });
     require_same_case(file);
-    const auto inputs = inputs_of(options, std::nullopt, {c.rock.table});
+    const auto inputs = inputs_of(options, std::nullopt, {c.assembly.table});
     on_first_rank([&] { folder.check(inputs); });
-    make_far_field(c.rock); // sets the faces around the side
-    make(file, c.rock, folder, inputs);
+    make_far_field(c.assembly); // sets the faces around the side
+    make(file, c.assembly, folder, inputs);
     return 0;
   }
   SampleCase c;

@@ -23,9 +23,10 @@ dem::Sample read_or_make(const CaseFile& file, const SpecimenKeys& k)
       }
       const std::string differs = dem::difference(sample, recipe(k));
       if (!differs.empty())
-        file.refuse("Specimen", "file",
-                    differs +
-                        "; make a new sample, or clear the key to make it for this run");
+        file.refuse(
+            "Specimen", "file",
+            differs + "; make a new sample, or clear the key to make the specimen in this "
+                      "run");
     });
     require_same_bytes(sample.sum, "Specimen/file = " + k.sample.string());
     return sample;
@@ -42,7 +43,7 @@ dem::Sample read_or_make(const CaseFile& file, const SpecimenKeys& k)
   sample.bonding =
       dem::choose_bonds(k.specimen, sample.packing.particles, sample.packing.cell);
   sample.recipe = recipe(k);
-  progress.done(std::to_string(sample.packing.particles.size()) + " grains");
+  progress.done(std::to_string(sample.packing.particles.size()) + " particles");
   return sample;
 }
 
@@ -65,15 +66,16 @@ std::string report(const SpecimenKeys& k, const dem::Sample& sample)
 {
   const dem::SpecimenSpec& s = k.specimen;
   const dem::Packing& p = sample.packing;
-  const dem::GrainRange range = dem::describe_grains(p.particles);
+  const dem::ParticleRange range = dem::describe_particles(p.particles);
   const dem::SizeReport sizes = dem::describe_sizes(s.sizes, p.particles);
   const double Z = coordination(sample);
   std::ostringstream out;
   out.precision(4);
-  out << "specimen: " << p.particles.size() << " grains of " << 1e3 * range.d_min << " to "
-      << 1e3 * range.d_max << " mm, S " << range.S_min << " to " << range.S_max
+  out << "specimen: " << p.particles.size() << " particles of " << 1e3 * range.d_min
+      << " to " << 1e3 * range.d_max << " mm, S " << range.S_min << " to " << range.S_max
       << "; porosity " << p.porosity << " in the core (wanted " << s.porosity << "), "
-      << p.whole_porosity << " in all; pressure " << 1e-3 * p.pressure << " kPa";
+      << p.whole_porosity << " in the whole region; pressure " << 1e-3 * p.pressure
+      << " kPa";
   if (s.compaction == dem::Compaction::confined)
     out << " (wanted " << 1e-3 * s.pressure << "), friction while packed " << p.friction;
   out << "; " << sample.bonding.pairs.size() << " bonds, Z = 2 N_bonds/N = " << Z
@@ -94,7 +96,7 @@ std::string summary(const SpecimenKeys& k, const dem::Sample& sample)
 {
   const dem::SpecimenSpec& s = k.specimen;
   const dem::Packing& p = sample.packing;
-  const dem::GrainRange range = dem::describe_grains(p.particles);
+  const dem::ParticleRange range = dem::describe_particles(p.particles);
   const dem::SizeReport sizes = dem::describe_sizes(s.sizes, p.particles);
   std::vector<std::pair<const char*, double>> numbers{
       {"particles [-]", static_cast<double>(p.particles.size())},
@@ -126,11 +128,12 @@ std::string summary(const SpecimenKeys& k, const dem::Sample& sample)
       {"periodic edge z [m]", p.cell.size.z()}};
   if (k.strengths.is_on()) {
     const dem::StrengthSpread drawn = dem::describe_strengths(p.particles);
-    numbers.insert(numbers.end(), {{"mean strength factor of the grains [-]", drawn.mean},
-                                   {"coefficient of variation of the strength factors [-]",
-                                    drawn.variation},
-                                   {"smallest strength factor [-]", drawn.least},
-                                   {"largest strength factor [-]", drawn.greatest}});
+    numbers.insert(
+        numbers.end(),
+        {{"mean strength factor of the particles [-]", drawn.mean},
+         {"coefficient of variation of the strength factors [-]", drawn.variation},
+         {"smallest strength factor [-]", drawn.smallest},
+         {"largest strength factor [-]", drawn.largest}});
   }
   std::string text;
   for (const auto& [name, value] : numbers)

@@ -1,4 +1,4 @@
-/// The specimen of a case: read from a file or made, and what is said of it.
+/// The specimen of a case: read from a file or made, with its report.
 #pragma once
 
 #include "apps/case/specimen_keys.h"
@@ -6,14 +6,14 @@
 namespace mergel::apps {
 
 /// Read the sample that the case names and compare its recipe, or make one, and draw the
-/// strengths of its grains; collective. Nothing is written.
+/// strengths of its particles; collective. Nothing is written.
 /// @throws InputError naming file, line and key
 dem::Sample obtain_sample(const CaseFile& file, const SpecimenKeys& k);
 
-/// One paragraph on what was reached.
+/// One paragraph: porosity, pressure, coordination and sizes reached.
 std::string report(const SpecimenKeys& k, const dem::Sample& sample);
 
-/// The same as one line of JSON a number.
+/// The same as JSON, one line per number.
 std::string summary(const SpecimenKeys& k, const dem::Sample& sample);
 
 } // namespace mergel::apps

@@ -1,5 +1,6 @@
 #include "apps/view/bond.h"
 
+#include "apps/view/round_off.h"
 #include "dem/error.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ public:
     std::ifstream in(file_);
     require(fs::is_regular_file(file_) && in.good(),
             file_.string() + ": cannot be read. Copy the whole results folder, or let the "
-                             "run end.");
+                             "run end first.");
     text_.assign(std::istreambuf_iterator<char>(in), {});
   }
 
@@ -48,7 +49,7 @@ public:
 private:
   static constexpr const char* remedy = "Was it written by 'mergel bond'?";
 
-  /// What follows `"name":`, from its first letter.
+  /// The text after `"name":`, from its first character.
   std::string after(const std::string& name) const
   {
     const std::size_t at = text_.find('"' + name + '"');
@@ -85,7 +86,6 @@ bool BondRun::moves(Load l) const
 
 bool BondRun::bears(Load l) const
 {
-  constexpr double round_off = 1e-9; // of the strength
   return exceeds(load[l], round_off * strength.of(l, 1.0));
 }
 

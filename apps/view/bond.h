@@ -1,4 +1,4 @@
-/// What `mergel bond` left in its folder, ready to be drawn.
+/// Results of `mergel bond`, read for drawing.
 #pragma once
 
 #include "apps/view/run_name.h"
@@ -11,7 +11,7 @@
 
 namespace mergel::apps {
 
-/// The loads of a bond, and the motions that work on them, by number.
+/// The loads of a bond and the motions conjugate to them, by number.
 enum Load : std::size_t { normal, shear, bending };
 
 /// Strengths of the intact section under one load alone; all > 0.
@@ -40,7 +40,7 @@ struct BondRun {
   std::vector<double> f_s;                   ///< of that contact, signed as V [N]
 
   std::size_t n_rows() const { return D.size(); }
-  bool has_contact() const; ///< the contact carried something
+  bool has_contact() const; ///< the contact had a force
   bool moves(Load load) const;
   bool bears(Load load) const; ///< more than round-off
 

@@ -31,7 +31,7 @@ double largest(const std::vector<double>& values)
   return std::max(-r.low, r.high);
 }
 
-/// Of bond and contact together, signed as of the bond [N], [N m]; the contact bears no
+/// Of bond and contact together, with the sign of the bond [N], [N m]; the contact has no
 /// moment.
 std::vector<double> total(const BondRun& run, Load l)
 {
@@ -43,8 +43,8 @@ std::vector<double> total(const BondRun& run, Load l)
   return sum;
 }
 
-/// sum of sqrt(du_n^2 + du_s^2 + (R_b dtheta)^2) [m]: rotation counts as the travel of the
-/// rim of the bond.
+/// sum of sqrt(du_n^2 + du_s^2 + (R_b dtheta)^2) [m]: rotation counts as displacement of
+/// the rim of the bond.
 std::vector<double> path_length(const BondRun& run)
 {
   std::vector<double> length(run.n_rows(), 0.0);
@@ -56,7 +56,7 @@ std::vector<double> path_length(const BondRun& run)
   return length;
 }
 
-/// One unit for all forces of the page, one for all lengths: its panels can be compared.
+/// One unit for all forces of the page, one for all lengths: panels can be compared.
 struct Units {
   Unit force, moment, length, angle;
   const Unit& of_load(Load l) const { return l == bending ? moment : force; }

@@ -1,4 +1,4 @@
-/// What a bond bears against what it is made to do, as the paper's Fig. 4.
+/// Loads of a bond against its imposed motion, as in the paper's Fig. 4.
 #pragma once
 
 #include "apps/view/bond.h"
@@ -10,7 +10,7 @@ namespace mergel::apps {
 
 /// Normal force against normal displacement and shear force against shear displacement
 /// (bond and contact together, and the bond alone), moment against rotation, each if that
-/// motion occurs in a run; damage against the length of the path. Runs lie on each other.
+/// motion occurs in a run; damage against the length of the path. All runs in one panel.
 void draw_bond_loads(Page& page, const std::vector<BondRun>& runs);
 
 } // namespace mergel::apps

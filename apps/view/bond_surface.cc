@@ -46,7 +46,7 @@ Loads effective_loads(const BondRun& run, std::size_t row)
   Loads q{};
   const double intact = 1.0 - run.D[row];
   for (const Load l : {normal, shear, bending})
-    q[l] = intact > 0.0 ? run.load[l][row] / intact : 0.0; // D = 1: the bond is gone
+    q[l] = intact > 0.0 ? run.load[l][row] / intact : 0.0; // D = 1: the bond is broken
   return q;
 }
 
@@ -96,7 +96,7 @@ bool any_bears(const std::vector<BondRun>& runs, Load l)
                      [&](const BondRun& run) { return run.bears(l); });
 }
 
-/// Whether the normal load of a run goes to this side, by more than 1 % of the strength.
+/// Whether the normal load of a run reaches this side, by more than 1 % of the strength.
 bool visits(const BondRun& run, double side)
 {
   return std::any_of(run.load[normal].begin(), run.load[normal].end(), [&](double N) {
@@ -104,8 +104,8 @@ bool visits(const BondRun& run, double side)
   });
 }
 
-/// The planes of the loads that are borne; a load that is borne alone is shown beside N or,
-/// if it is N, beside M.
+/// The planes of the loads that act; a load that acts alone is shown with N or, if it is N,
+/// with M.
 std::vector<Plane> planes(const std::vector<BondRun>& runs)
 {
   const bool N = any_bears(runs, normal), V = any_bears(runs, shear),
@@ -196,7 +196,7 @@ Path path_on(const Plane& plane, const BondRun& run)
   return path;
 }
 
-/// Runs of one strength whose third load is nothing have their sections in common.
+/// Runs of equal strengths without a third load share their sections.
 bool share_sections(const Plane& plane, const std::vector<BondRun>& runs)
 {
   return !any_bears(runs, plane.third) &&
@@ -205,7 +205,7 @@ bool share_sections(const Plane& plane, const std::vector<BondRun>& runs)
          });
 }
 
-/// One panel: its axes are chosen when all that it shows is known.
+/// One panel. Its axes are chosen last, to fit all that it shows.
 class Picture {
 public:
   Picture(const Plane& plane, const std::vector<BondRun>& runs) : plane_(plane), runs_(runs)
@@ -219,7 +219,7 @@ public:
     }
     set_quadrants();
     for (std::size_t k = 0; k < runs.size(); ++k) add_sections(k);
-    // a path that does not meet its surface here: the widest section, without third load
+    // no path reaches its surface here: the widest section, without third load
     if (sections_.empty()) add_section(0, Moment{});
     x_unit_ = unit(plane.x);
     y_unit_ = unit(plane.y);
@@ -247,7 +247,7 @@ private:
     Stroke stroke;
   };
 
-  /// Fit for the strength: the same in all panels that show this load on this side.
+  /// Unit that suits the strength: the same in all panels with this load on this side.
   Unit unit(Load l) const
   {
     double strength = 0.0;
@@ -271,10 +271,10 @@ private:
   void set_quadrants()
   {
     const auto signs = [](const Range& r) {
-      const double least = 0.01 * std::max(-r.low, r.high);
+      const double smallest = 0.01 * std::max(-r.low, r.high);
       std::vector<double> result;
-      if (r.high >= least) result.push_back(1.0);
-      if (-r.low > least) result.push_back(-1.0);
+      if (r.high >= smallest) result.push_back(1.0);
+      if (-r.low > smallest) result.push_back(-1.0);
       return result;
     };
     x_signs_ = plane_.side == 0.0 ? signs(x_) : std::vector<double>{plane_.side};
@@ -286,7 +286,7 @@ private:
     for (const Moment& moment : moments_[k]) {
       const bool is_there = std::any_of(sections_.begin(), sections_.end(),
                                         [&](const Drawn& d) { return d.D == moment.D; });
-      // a section at the third load of another side would touch nothing here
+      // no path of this panel crosses a section at the third load of the other side
       if (is_shared_ ? is_there : !is_shown(moment)) continue;
       add_section(k, moment);
     }

@@ -1,4 +1,4 @@
-/// Curves over the depth of a pile, drawn as soil mechanics draws them: depth downwards.
+/// Curves over the depth of a pile, with depth downwards as usual in soil mechanics.
 #pragma once
 
 #include "apps/view/page.h"

@@ -86,7 +86,7 @@ Axis round_axis(const Range& r, const std::string& title)
   const double high = r.high > r.low ? r.high : r.low + 1.0;
   const auto ticks = round_ticks(r.low, high, 5);
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : high - r.low;
-  // 2 % of a step: a value that ends on a tick does not call for another one
+  // 2 % of a step: a value that ends on a tick needs no further one
   return {step * std::floor(r.low / step + 0.02), step * std::ceil(high / step - 0.02),
           title};
 }

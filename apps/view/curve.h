@@ -1,4 +1,4 @@
-/// Curves in panels: their axes, their strokes and the key that tells them apart.
+/// Curves in panels: their axes, their strokes and the key that names them.
 #pragma once
 
 #include "apps/view/page.h"
@@ -9,12 +9,12 @@
 namespace mergel::apps {
 
 struct Range {
-  double low = 0.0, high = 0.0; ///< always holds 0
+  double low = 0.0, high = 0.0; ///< always includes 0
 };
 
 /// Of the finite values.
 Range range(const std::vector<double>& values);
-Range range(const Range& a, const Range& b); ///< holds both
+Range range(const Range& a, const Range& b); ///< includes both
 
 /// An axis from the lowest to the highest value, widened to a round number.
 Axis round_axis(const Range& r, const std::string& title);
@@ -34,8 +34,8 @@ void draw_curve(Page& page, const Panel& panel, const std::vector<double>& x,
                 const std::vector<double>& y, const Stroke& stroke);
 
 /// Stroke number k of a picture with many curves; eight colours, and 40 strokes differ.
-/// Colours differ in lightness and each has its dashes, so that grey print and curves that
-/// lie on each other can still be read.
+/// Colours differ in lightness and each has its dashes, so that curves can be read in grey
+/// print and where they overlap.
 Stroke distinct_stroke(std::size_t k);
 
 /// The mark of a point: its outline around white, or filled.

@@ -1,4 +1,4 @@
-/// How far the rock has moved since the first frame of a run.
+/// Displacement of particles and far field since the first frame of a run.
 #pragma once
 
 #include "apps/view/results.h"
@@ -7,9 +7,9 @@ namespace mergel::apps {
 
 inline constexpr const char* displacement_array = "displacement since frame 0";
 
-/// Give particles and far field of `frame` the point array `displacement_array`: the
-/// distance moved since `start` [mm]. Particles are found again by their id.
-/// @returns the distance that 98 % of the particles stay below [mm]; debris flies further
+/// Gives particles and far field of `frame` the point array `displacement_array`: the
+/// distance moved since `start` [mm]. Particles are identified by their id.
+/// @returns the distance below which 98 % of the particles stay [mm]; debris moves further
 /// @throws InputError when the two frames are not of one run
 double add_displacement(const ResultFrame& start, ResultFrame& frame);
 

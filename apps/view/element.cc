@@ -1,5 +1,6 @@
 #include "apps/view/element.h"
 
+#include "apps/view/round_off.h"
 #include "dem/error.h"
 
 #include <algorithm>
@@ -14,37 +15,38 @@ namespace {
 constexpr double negligible = 0.01; // |q| over the largest p
 constexpr std::array<const char*, 2> counted_strains{"axial strain", "volumetric strain"};
 
-/// Ratio of the edge (or volume) from which the strain of the leg counts to that from which
-/// the whole strain does: 1 - whole = start (1 - of the leg).
-double start(double whole, double of_leg)
+/// Ratio of the edge (or volume) from which the strain of the stage counts to that from
+/// which the strain of the whole test counts: 1 - whole = start (1 - of the stage).
+double start(double whole, double of_stage)
 {
-  return (1.0 - whole) / (1.0 - of_leg); // no cell is strained by 1: it would be gone
+  return (1.0 - whole) / (1.0 - of_stage); // > 0: at a strain of 1 there is no cell
 }
 
-bool is_of(const Legs& legs, double leg)
+bool is_of(const Stages& stages, double stage)
 {
-  return leg >= legs.first && (legs.last == 0 || leg <= legs.last);
+  return stage >= stages.first && (stages.last == 0 || stage <= stages.last);
 }
 
-Quantity quantity(const std::string& name, const std::string& unit, const Legs& legs)
+PlotQuantity quantity(const std::string& name, const std::string& unit,
+                      const Stages& stages)
 {
-  Quantity q;
+  PlotQuantity q;
   q.name = q.words = name;
   q.unit = unit;
-  name_legs(q, legs);
+  name_stages(q, stages);
   return q;
 }
 
-Quantity volumetric_strain(const Legs& legs)
+PlotQuantity volumetric_strain(const Stages& stages)
 {
-  Quantity q = quantity("volumetric strain", "%", legs);
-  if (legs.is_all()) q.words += ", compression +"; // no room for both
+  PlotQuantity q = quantity("volumetric strain", "%", stages);
+  if (stages.is_all()) q.words += ", compression +"; // no room for both
   return q;
 }
 
-Quantity void_ratio()
+PlotQuantity void_ratio()
 {
-  Quantity q = quantity("void ratio", "-", {});
+  PlotQuantity q = quantity("void ratio", "-", {});
   q.words = "void ratio e";
   return q;
 }
@@ -53,49 +55,49 @@ Quantity void_ratio()
 
 bool is_element_history(const dem::Table& history)
 {
-  return history.has("leg") && history.has("p") && history.has("q") &&
+  return history.has("stage") && history.has("p") && history.has("q") &&
          history.has("void ratio");
 }
 
-Legs legs_of(const std::string& text)
+Stages stages_of(const std::string& text)
 {
-  Legs legs;
+  Stages stages;
   char rest = 0;
-  const int n = std::sscanf(text.c_str(), "%d-%d%c", &legs.first, &legs.last, &rest);
+  const int n = std::sscanf(text.c_str(), "%d-%d%c", &stages.first, &stages.last, &rest);
   const bool is_one = n == 1 && text.find_first_not_of("0123456789") == std::string::npos;
-  const bool is_range = n == 2 && legs.last >= legs.first;
-  require((is_one || is_range) && legs.first >= 1,
-          "--leg " + text +
-              ": must be the number of a leg, from which on to draw, or the first and the "
-              "last of several: 2 or 2-3.");
-  return legs;
+  const bool is_range = n == 2 && stages.last >= stages.first;
+  require(
+      (is_one || is_range) && stages.first >= 1,
+      "--stage " + text +
+          ": must be the number of a stage, from which on to draw, or the first and the "
+          "last of several: 2 or 2-3.");
+  return stages;
 }
 
-dem::Table from_legs(const dem::Table& history, const Legs& legs)
+dem::Table from_stages(const dem::Table& history, const Stages& stages)
 {
-  if (legs.is_all()) return history;
-  const std::vector<double>& leg = history.column("leg", "-");
-  std::array<const std::vector<double>*, 2> whole{}, of_leg{};
+  if (stages.is_all()) return history;
+  const std::vector<double>& stage = history.column("stage", "-");
+  std::array<const std::vector<double>*, 2> whole{}, of_stage{};
   for (std::size_t k = 0; k < 2; ++k) {
     const std::string name = counted_strains[k];
     whole[k] = &history.column(name, "-");
-    of_leg[k] = &history.column(name + " of the leg", "-");
+    of_stage[k] = &history.column(name + " of the stage", "-");
   }
 
   const auto start_of = [&](std::size_t k, std::size_t row) {
-    return start((*whole[k])[row], (*of_leg[k])[row]);
+    return start((*whole[k])[row], (*of_stage[k])[row]);
   };
-  const auto last = std::find(leg.rbegin(), leg.rend(), legs.first);
-  const double longest = *std::max_element(leg.begin(), leg.end());
-  require(last != leg.rend(), history.file.string() + ": no record of leg " +
-                                  std::to_string(legs.first) + "; the last is " +
-                                  std::to_string(std::lround(longest)) + ".");
-  // While it goes to the stress it is to hold, a leg counts from another start.
-  const auto anchor = static_cast<std::size_t>(leg.rend() - last - 1);
-  constexpr double round_off = 1e-9;
+  const auto last = std::find(stage.rbegin(), stage.rend(), stages.first);
+  const double longest = *std::max_element(stage.begin(), stage.end());
+  require(last != stage.rend(), history.file.string() + ": no record of stage " +
+                                    std::to_string(stages.first) + "; the last is " +
+                                    std::to_string(std::lround(longest)) + ".");
+  // During the approach to its stress a stage counts from another start.
+  const auto anchor = static_cast<std::size_t>(stage.rend() - last - 1);
   const auto is_drawn = [&](std::size_t row) {
-    if (!is_of(legs, leg[row])) return false;
-    if (leg[row] > legs.first) return true;
+    if (!is_of(stages, stage[row])) return false;
+    if (stage[row] > stages.first) return true;
     return std::abs(start_of(0, row) - start_of(0, anchor)) < round_off &&
            std::abs(start_of(1, row) - start_of(1, anchor)) < round_off;
   };
@@ -119,12 +121,12 @@ dem::Table from_legs(const dem::Table& history, const Legs& legs)
   return result;
 }
 
-void name_legs(Quantity& quantity, const Legs& legs)
+void name_stages(PlotQuantity& quantity, const Stages& stages)
 {
   const bool is_counted = std::find(counted_strains.begin(), counted_strains.end(),
                                     quantity.name) != counted_strains.end();
-  if (is_counted && !legs.is_all())
-    quantity.words += " from leg " + std::to_string(legs.first) + " on";
+  if (is_counted && !stages.is_all())
+    quantity.words += " from stage " + std::to_string(stages.first) + " on";
 }
 
 bool is_isotropic(const std::vector<Run>& runs)
@@ -139,22 +141,22 @@ bool is_isotropic(const std::vector<Run>& runs)
   return q < negligible * p;
 }
 
-std::vector<RunPlot> element_plots(const std::vector<Run>& runs, const Legs& legs)
+std::vector<RunPlot> element_plots(const std::vector<Run>& runs, const Stages& stages)
 {
-  const Quantity axial = quantity("axial strain", "%", legs),
-                 q = quantity("q", "MPa", legs), p = quantity("p", "MPa", legs);
+  const PlotQuantity axial = quantity("axial strain", "%", stages),
+                     q = quantity("q", "MPa", stages), p = quantity("p", "MPa", stages);
   std::vector<RunPlot> plots{plot_of(axial, q, runs),
-                             plot_of(axial, volumetric_strain(legs), runs),
+                             plot_of(axial, volumetric_strain(stages), runs),
                              plot_of(p, q, runs), plot_of(p, void_ratio(), runs)};
   for (RunPlot& plot : plots) plot.x_reach = plot.y_reach = Reach::from_zero;
   plots.back().y_reach = Reach::of_values;
   return plots;
 }
 
-std::vector<RunPlot> isotropic_plots(const std::vector<Run>& runs, const Legs& legs)
+std::vector<RunPlot> isotropic_plots(const std::vector<Run>& runs, const Stages& stages)
 {
-  const Quantity p = quantity("p", "MPa", legs);
-  std::vector<RunPlot> plots{plot_of(volumetric_strain(legs), p, runs),
+  const PlotQuantity p = quantity("p", "MPa", stages);
+  std::vector<RunPlot> plots{plot_of(volumetric_strain(stages), p, runs),
                              plot_of(p, void_ratio(), runs)};
   plots[0].x_reach = plots[0].y_reach = Reach::from_zero;
   plots[1].x_reach = Reach::decades;

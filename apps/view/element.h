@@ -1,4 +1,4 @@
-/// Runs of `mergel element` as papers on the mechanics of rock draw them.
+/// Plots of runs of `mergel element`, as usual in rock mechanics.
 #pragma once
 
 #include "apps/view/run_plot.h"
@@ -12,33 +12,33 @@ namespace mergel::apps {
 /// Whether this is the history of an element test, not of a pile or bond.
 bool is_element_history(const dem::Table& history);
 
-/// Which legs are drawn, counted from 1.
-struct Legs {
+/// Which stages are drawn, counted from 1.
+struct Stages {
   int first = 0; ///< 0: all, with the strains of the whole test
   int last = 0;  ///< 0: to the end of the test
   bool is_all() const { return first == 0; }
 };
 
-/// "2": from leg 2 on; "2-3": legs 2 and 3.
+/// "2": from stage 2 on; "2-3": stages 2 and 3.
 /// @throws InputError naming the text
-Legs legs_of(const std::string& text);
+Stages stages_of(const std::string& text);
 
-/// The records of these legs. "axial strain" and "volumetric strain" count from where the
-/// strain of the first of them counts; what comes before (the way to the stress that the
-/// leg holds) is left out. "... of the leg" stay as they are.
-/// @throws InputError naming the file when it holds no such leg
-dem::Table from_legs(const dem::Table& history, const Legs& legs);
+/// The records of these stages. "axial strain" and "volumetric strain" count from where the
+/// strain of the first of them counts; the approach to the stress of that stage is left
+/// out. "... of the stage" stay as they are.
+/// @throws InputError naming the file when it holds no such stage
+dem::Table from_stages(const dem::Table& history, const Stages& stages);
 
-/// For the title of an axis: "axial strain from leg 2 on".
-void name_legs(Quantity& quantity, const Legs& legs);
+/// For the title of an axis: "axial strain from stage 2 on".
+void name_stages(PlotQuantity& quantity, const Stages& stages);
 
-/// Whether no run has a deviator stress worth speaking of: |q| below 1 % of the largest p.
+/// Whether the deviator stress is negligible in all runs: |q| below 1 % of the largest p.
 bool is_isotropic(const std::vector<Run>& runs);
 
 /// q and volumetric strain over axial strain; q and void ratio over p.
-std::vector<RunPlot> element_plots(const std::vector<Run>& runs, const Legs& legs);
+std::vector<RunPlot> element_plots(const std::vector<Run>& runs, const Stages& stages);
 
 /// p over volumetric strain; void ratio over log p.
-std::vector<RunPlot> isotropic_plots(const std::vector<Run>& runs, const Legs& legs);
+std::vector<RunPlot> isotropic_plots(const std::vector<Run>& runs, const Stages& stages);
 
 } // namespace mergel::apps

@@ -88,9 +88,9 @@ std::vector<Pixel> CurveLabels::outside(std::size_t curve, double half) const
 {
   const double u = page_.unit();
   const auto nearest = [](const Pixel& p, const std::vector<Pixel>& points) {
-    double least = 1e300;
-    for (const Pixel& other : points) least = std::min(least, distance(p, other));
-    return least;
+    double smallest = 1e300;
+    for (const Pixel& other : points) smallest = std::min(smallest, distance(p, other));
+    return smallest;
   };
   std::vector<Pixel> places;
   for (const Pixel& p : curves_[curve]) {

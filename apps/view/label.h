@@ -1,4 +1,4 @@
-/// Words on curves, where there is room for them.
+/// Labels on curves, where there is room for them.
 #pragma once
 
 #include "apps/view/page.h"
@@ -11,18 +11,19 @@ namespace mergel::apps {
 
 /// Labels of the curves of one panel.
 ///
-/// A label stands in a gap of its curve, as far as can be from all other curves, labels and
-/// points to avoid; where the curve is too crowded it stands just outside of it, seen from
-/// the origin, if no other curve is nearer there; else it is left out.
+/// A label is placed in a gap of its curve, as far as possible from all other curves,
+/// labels and points to avoid. Where there is too little room it is placed just outside the
+/// curve, seen from the origin, if no other curve is nearer there; otherwise it is left
+/// out.
 class CurveLabels {
 public:
-  /// @param box    that labels keep inside of
-  /// @param origin that the curves go around
+  /// @param box    that contains all labels
+  /// @param origin around which the curves run
   CurveLabels(Page& page, const Box& box, const Pixel& origin);
 
   void avoid(const Pixel& point) { crowd_.push_back(point); }
 
-  /// A curve that is drawn already. Add all before the first label.
+  /// A curve that is already drawn. Add all before the first label.
   std::size_t add_curve(std::vector<Pixel> points);
 
   void write(std::size_t curve, const std::string& words);
@@ -30,7 +31,7 @@ public:
 private:
   struct Place {
     Pixel at;
-    double room = -1.0; ///< to the nearest thing to keep clear of; negative: no place
+    double room = -1.0; ///< distance to the nearest obstacle; negative: no place
   };
 
   double room_at(const Pixel& p, std::size_t curve) const;

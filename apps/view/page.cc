@@ -1,5 +1,6 @@
 #include "apps/view/page.h"
 
+#include "apps/view/round_off.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
 #include "dem/notation.h"
@@ -71,7 +72,7 @@ std::vector<Pixel> circle(const Pixel& centre, double radius, int n_sides)
   return corners;
 }
 
-/// Bars and round joints: lines of the graphics library gape where they bend.
+/// Bars and round joints: lines of the graphics library have gaps where they bend.
 void add_line(Shapes& shapes, const std::vector<Pixel>& points, double half)
 {
   for (std::size_t k = 0; k + 1 < points.size(); ++k) {
@@ -243,7 +244,7 @@ std::vector<double> round_ticks(double from, double to, int n)
   const double decade = std::pow(10.0, std::floor(std::log10(rough)));
   double step = 10.0 * decade;
   for (const double round : {5.0, 2.0, 1.0})
-    if (round * decade >= rough * (1.0 - 1e-9)) step = round * decade;
+    if (round * decade >= rough * (1.0 - round_off)) step = round * decade;
 
   std::vector<double> ticks;
   const double slack = 1e-6; // of a step, so that round-off does not lose the last tick
@@ -255,20 +256,20 @@ std::vector<double> round_ticks(double from, double to, int n)
 std::vector<double> decade_ticks(double from, double to)
 {
   std::vector<double> ticks;
-  constexpr double slack = 1e-9;
   for (double k = std::floor(std::log10(from)); k <= std::ceil(std::log10(to)); ++k)
     for (double digit = 1.0; digit < 9.5; ++digit) {
       const double tick = digit * std::pow(10.0, k);
-      if (tick >= from * (1.0 - slack) && tick <= to * (1.0 + slack)) ticks.push_back(tick);
+      if (tick >= from * (1.0 - round_off) && tick <= to * (1.0 + round_off))
+        ticks.push_back(tick);
     }
   return ticks;
 }
 
 bool has_number(double tick, const Axis& axis)
 {
-  const bool is_wide = axis.to > 100.0 * axis.from * (1.0 + 1e-9);
+  const bool is_wide = axis.to > 100.0 * axis.from * (1.0 + round_off);
   const double digit =
-      std::round(tick / std::pow(10.0, std::floor(std::log10(tick) + 1e-9)));
+      std::round(tick / std::pow(10.0, std::floor(std::log10(tick) + round_off)));
   return digit == 1.0 || (!is_wide && (digit == 2.0 || digit == 5.0));
 }
 

@@ -1,5 +1,6 @@
 #include "apps/view/plot.h"
 
+#include "apps/view/round_off.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,11 +16,10 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 double round_125(double value, bool up)
 {
   const double decade = std::pow(10.0, std::floor(std::log10(value)));
-  constexpr double slack = 1e-9;
   double below = decade;
   for (const double round : {1.0, 2.0, 5.0, 10.0}) {
-    if (up && round * decade >= value * (1.0 - slack)) return round * decade;
-    if (round * decade <= value * (1.0 + slack)) below = round * decade;
+    if (up && round * decade >= value * (1.0 - round_off)) return round * decade;
+    if (round * decade <= value * (1.0 + round_off)) below = round * decade;
   }
   return below;
 }
@@ -48,7 +48,7 @@ Axis axis_of_values(const std::vector<double>& values, const std::string& title)
     high = std::max(high, value);
   }
   if (!(low <= high)) return round_axis({}, title);
-  if (high - low <= 1e-9 * std::max(std::abs(low), std::abs(high))) { // a constant
+  if (high - low <= round_off * std::max(std::abs(low), std::abs(high))) { // a constant
     const double margin = low == 0.0 ? 1.0 : 0.05 * std::abs(low);
     low -= margin;
     high += margin;
@@ -65,7 +65,7 @@ std::vector<double> all(const Plot& plot, Direction&& direction)
     const std::vector<double>& v = direction(part);
     values.insert(values.end(), v.begin(), v.end());
   };
-  for (const Curve& curve : plot.curves) add(curve);
+  for (const PlotCurve& curve : plot.curves) add(curve);
   for (const Scatter& scatter : plot.scatters) add(scatter);
   return values;
 }
@@ -75,7 +75,7 @@ std::vector<double> shown(std::vector<double> values, const Axis& axis)
 {
   if (axis.is_logarithmic)
     for (double& value : values)
-      if (!(value >= axis.from * (1.0 - 1e-9))) value = NaN;
+      if (!(value >= axis.from * (1.0 - round_off))) value = NaN;
   return values;
 }
 
@@ -117,7 +117,7 @@ void draw_plot(Page& page, const Box& box, const Plot& plot)
     page.line({panel.at(panel.x.from, 0.0), panel.at(panel.x.to, 0.0)}, zero);
   if (has_both_signs(panel.x))
     page.line({panel.at(0.0, panel.y.from), panel.at(0.0, panel.y.to)}, zero);
-  for (const Curve& curve : plot.curves)
+  for (const PlotCurve& curve : plot.curves)
     draw_curve(page, panel, shown(curve.x, panel.x), shown(curve.y, panel.y), curve.stroke);
   for (const Scatter& scatter : plot.scatters) {
     const auto x = shown(scatter.x, panel.x), y = shown(scatter.y, panel.y);

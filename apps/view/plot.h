@@ -10,7 +10,7 @@
 namespace mergel::apps {
 
 enum class Reach {
-  from_zero, ///< the axis holds 0
+  from_zero, ///< the axis includes 0
   of_values, ///< from the lowest to the highest value
   decades ///< logarithmic, at most three decades: what lies lower, or below 0, is left out
 };
@@ -21,7 +21,7 @@ struct PlotAxis {
 };
 
 /// All values in the units of the axes.
-struct Curve {
+struct PlotCurve {
   std::vector<double> x, y;
   Stroke stroke;
 };
@@ -32,7 +32,7 @@ struct Scatter {
 
 struct Plot {
   PlotAxis x, y;
-  std::vector<Curve> curves;
+  std::vector<PlotCurve> curves;
   std::vector<Scatter> scatters; ///< above the curves
 };
 

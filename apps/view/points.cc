@@ -17,7 +17,7 @@ bool is_number(const std::string& word)
 }
 
 /// Column k in the unit of the axis.
-std::vector<double> on_axis(const Points& points, std::size_t k, const Quantity& axis)
+std::vector<double> on_axis(const Points& points, std::size_t k, const PlotQuantity& axis)
 {
   std::vector<double> values = points.values[k];
   const std::string& unit = points.names[k].unit;
@@ -55,7 +55,8 @@ Points read_points(const std::filesystem::path& file, Mark mark)
   return points;
 }
 
-std::optional<Scatter> on_axes(const Points& points, const Quantity& x, const Quantity& y)
+std::optional<Scatter> on_axes(const Points& points, const PlotQuantity& x,
+                               const PlotQuantity& y)
 {
   const auto& names = points.names;
   const bool is_x_first = names[0].name == x.name && names[1].name == y.name;

@@ -1,4 +1,5 @@
-/// Points that are laid over the curves of runs: measured, digitised or computed elsewhere.
+/// Points that are drawn over the curves of runs: measured, digitised or computed
+/// elsewhere.
 #pragma once
 
 #include "apps/view/plot.h"
@@ -17,21 +18,22 @@ namespace mergel::apps {
 ///     p [MPa],q [MPa]
 ///     1.2,1.5
 ///
-/// Names as in history.csv, in any order; a unit may be left out, then it is that of the
-/// axis. A first line with # is the name in the key, else the file is.
+/// Names as in history.csv, in any order; without a unit it is that of the axis. A first
+/// line with # is the name in the key, otherwise it is the name of the file.
 struct Points {
   std::filesystem::path file;
   std::string label;
   Mark mark = Mark::ring;
-  std::array<Quantity, 2> names; ///< not settled
+  std::array<PlotQuantity, 2> names; ///< not settled
   std::array<std::vector<double>, 2> values;
 };
 
 /// @throws InputError naming the file: unreadable, or not two columns with names
 Points read_points(const std::filesystem::path& file, Mark mark);
 
-/// The points in the units of these axes; none if they measure something else.
+/// The points in the units of these axes; none if they have other names.
 /// @throws InputError naming the file when a unit does not fit its axis
-std::optional<Scatter> on_axes(const Points& points, const Quantity& x, const Quantity& y);
+std::optional<Scatter> on_axes(const Points& points, const PlotQuantity& x,
+                               const PlotQuantity& y);
 
 } // namespace mergel::apps

@@ -14,7 +14,7 @@ namespace mergel::apps {
 
 namespace {
 
-constexpr double least_divisor = 1e-3; // of its largest
+constexpr double smallest_divisor = 1e-3; // of its largest
 
 const dem::TableColumn* find(const dem::Table& history, const std::string& name)
 {
@@ -53,10 +53,10 @@ dem::TableColumn ratio(const dem::TableColumn& above, const dem::TableColumn& be
                        const std::string& name)
 {
   dem::TableColumn result{name, unit_of_ratio(above.unit, below.unit), above.values};
-  const double least = least_divisor * largest(below.values);
+  const double smallest = smallest_divisor * largest(below.values);
   for (std::size_t row = 0; row < result.values.size(); ++row) {
     const double divisor = below.values[row];
-    result.values[row] = std::abs(divisor) > least // and so not 0
+    result.values[row] = std::abs(divisor) > smallest // and so not 0
                              ? result.values[row] / divisor
                              : std::numeric_limits<double>::quiet_NaN();
   }
@@ -72,15 +72,15 @@ std::string usual_unit(const std::string& name, const std::string& base, double 
 
 } // namespace
 
-std::string Quantity::title() const
+std::string PlotQuantity::title() const
 {
   return unit == "-" || unit.empty() ? words : words + " (" + unit + ")";
 }
 
-Quantity quantity_of(const std::string& text)
+PlotQuantity quantity_of(const std::string& text)
 {
   std::string name(trimmed(text));
-  Quantity q;
+  PlotQuantity q;
   const std::size_t open = name.rfind('[');
   if (open != std::string::npos && name.back() == ']') {
     q.unit = std::string(trimmed(name.substr(open + 1, name.size() - open - 2)));
@@ -95,12 +95,12 @@ Quantity quantity_of(const std::string& text)
   return q;
 }
 
-std::array<Quantity, 2> curve_of(const std::string& text)
+std::array<PlotQuantity, 2> curve_of(const std::string& text)
 {
   const std::size_t colon = text.find(':');
   const bool is_one = colon != std::string::npos && colon == text.rfind(':');
   const std::string y = is_one ? text.substr(colon + 1) : "";
-  std::array<Quantity, 2> xy{quantity_of(text.substr(0, colon)), quantity_of(y)};
+  std::array<PlotQuantity, 2> xy{quantity_of(text.substr(0, colon)), quantity_of(y)};
   require(is_one && !xy[0].name.empty() && !xy[1].name.empty(),
           "--curve " + in_quotes(text) +
               ": must be two columns of history.csv with a colon between, such as "
@@ -120,7 +120,7 @@ dem::TableColumn column_of(const dem::Table& history, const std::string& name)
                    joined(names, ", ") + ", and the ratio 'A/B' of any two.");
 }
 
-void settle(Quantity& quantity, const std::vector<const dem::Table*>& histories)
+void settle(PlotQuantity& quantity, const std::vector<const dem::Table*>& histories)
 {
   double most = 0.0;
   for (const dem::Table* history : histories) {
@@ -153,7 +153,7 @@ double unit_size(const std::string& unit, const std::string& base)
   }
 }
 
-std::vector<double> values_of(const dem::Table& history, const Quantity& quantity)
+std::vector<double> values_of(const dem::Table& history, const PlotQuantity& quantity)
 {
   std::vector<double> values = column_of(history, quantity.name).values;
   const double size = unit_size(quantity.unit, quantity.base);

@@ -1,5 +1,6 @@
 #include "apps/view/results.h"
 
+#include "apps/view/round_off.h"
 #include "dem/error.h"
 #include "dem/io/vtk.h"
 
@@ -27,29 +28,29 @@ namespace {
 
 constexpr double mm_per_m = 1e3;
 
-/// Listens to VTK's complaints: a reader tells of many kinds of damage in this way only.
-class Complaints : public vtkOutputWindow {
+/// Collects the error messages of VTK: many kinds of damage are reported in this way only.
+class VtkErrors : public vtkOutputWindow {
 public:
-  static Complaints* New();
+  static VtkErrors* New();
   void DisplayText(const char* text) override { text_ += text; }
   const std::string& text() const { return text_; }
 
 private:
   std::string text_;
 };
-vtkStandardNewMacro(Complaints);
+vtkStandardNewMacro(VtkErrors);
 
-/// While it lives, complaints are collected instead of printed.
-class Listener {
+/// During its lifetime error messages of VTK are collected instead of printed.
+class ErrorCollector {
 public:
-  Listener()
+  ErrorCollector()
   {
     vtkOutputWindow::SetInstance(complaints_);
     vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   }
-  Listener(const Listener&) = delete;
-  Listener& operator=(const Listener&) = delete;
-  ~Listener()
+  ErrorCollector(const ErrorCollector&) = delete;
+  ErrorCollector& operator=(const ErrorCollector&) = delete;
+  ~ErrorCollector()
   {
     vtkOutputWindow::SetInstance(before_);
     vtkLogger::SetStderrVerbosity(verbosity_before_);
@@ -59,7 +60,7 @@ public:
 private:
   vtkSmartPointer<vtkOutputWindow> before_ = vtkOutputWindow::GetInstance();
   vtkLogger::Verbosity verbosity_before_ = vtkLogger::GetCurrentVerbosityCutoff();
-  vtkNew<Complaints> complaints_;
+  vtkNew<VtkErrors> complaints_;
 };
 
 void scale(vtkDataArray* lengths)
@@ -88,7 +89,7 @@ auto read(const fs::path& file)
           file.string() + ": does not exist, though the series lists it. Copy the whole "
                           "results folder, 'fields' included.");
   vtkNew<Reader> reader;
-  const Listener listener;
+  const ErrorCollector listener;
   reader->SetFileName(file.c_str());
   reader->Update();
   auto* output = reader->GetOutput();
@@ -102,7 +103,7 @@ auto read(const fs::path& file)
 
 std::vector<dem::SeriesEntry> series(const fs::path& pvd)
 {
-  const Listener listener; // its complaints end in the exception of read_series
+  const ErrorCollector listener; // read_series throws instead
   auto entries = dem::read_series(pvd);
   require(!entries.empty(), pvd.string() + ": lists no file yet.");
   return entries;
@@ -112,7 +113,7 @@ std::vector<dem::SeriesEntry> series(const fs::path& pvd)
 fs::path file_at(double time, const fs::path& pvd)
 {
   for (const dem::SeriesEntry& entry : series(pvd))
-    if (std::abs(entry.time - time) <= 1e-9 * std::abs(time))
+    if (std::abs(entry.time - time) <= round_off * std::abs(time))
       return pvd.parent_path() / entry.file;
   throw InputError(pvd.string() + ": has no file at " + std::to_string(time) +
                    " s, as particles.pvd has. Choose another --frame.");

@@ -1,4 +1,4 @@
-/// What `mergel pile` left in its folder at one instant, ready to be drawn.
+/// Results of `mergel pile` at one instant, read for drawing.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace mergel::apps {
 
-/// One frame. Lengths (positions, radii, displacements) are in mm: graphics cards are
-/// happier near 1, and the axes are in mm.
+/// One frame. Lengths (positions, radii, displacements) are in mm, as the axes are;
+/// graphics cards need numbers near 1.
 struct ResultFrame {
   std::size_t number = 0; ///< position in particles.pvd, from 0
   double time = 0.0;      ///< [s]

@@ -1,4 +1,4 @@
-/// How a run is told from the others of a picture.
+/// What distinguishes a run from the others of a picture.
 #pragma once
 
 #include <cstddef>

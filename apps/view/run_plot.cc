@@ -15,7 +15,7 @@ namespace {
 constexpr double far_from_zero = 0.3; // lowest over highest value
 
 /// Of the axis of a quantity over all runs.
-Reach reach_of(const Quantity& quantity, const std::vector<Run>& runs)
+Reach reach_of(const PlotQuantity& quantity, const std::vector<Run>& runs)
 {
   if (quantity.is_logarithmic) return Reach::decades;
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -56,7 +56,7 @@ std::vector<KeyEntry> key(const std::vector<Run>& runs, const std::vector<Points
 
 } // namespace
 
-RunPlot plot_of(Quantity x, Quantity y, const std::vector<Run>& runs)
+RunPlot plot_of(PlotQuantity x, PlotQuantity y, const std::vector<Run>& runs)
 {
   std::vector<const dem::Table*> histories;
   for (const Run& run : runs) histories.push_back(&run.history);

@@ -1,4 +1,5 @@
-/// Runs on each other in panels of any two quantities, points above them, one key for all.
+/// Runs over each other in panels of any two quantities, points above them, one key for
+/// all.
 #pragma once
 
 #include "apps/view/page.h"
@@ -18,14 +19,13 @@ struct Run {
 
 /// What one panel shows.
 struct RunPlot {
-  Quantity x, y;
+  PlotQuantity x, y;
   Reach x_reach = Reach::from_zero, y_reach = Reach::from_zero;
 };
 
-/// Settle both quantities (view_quantity.h); axes hold 0 unless the values keep far from
-/// it.
+/// Settles both quantities (quantity.h); axes include 0 unless the values are far from it.
 /// @throws InputError when a run lacks a column
-RunPlot plot_of(Quantity x, Quantity y, const std::vector<Run>& runs);
+RunPlot plot_of(PlotQuantity x, PlotQuantity y, const std::vector<Run>& runs);
 
 /// @throws InputError naming a file whose columns are the axes of no panel
 void check_points(const std::vector<Points>& points, const std::vector<RunPlot>& plots);

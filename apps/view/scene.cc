@@ -33,7 +33,7 @@ namespace mergel::apps {
 namespace {
 
 const Colour steel{0.52, 0.56, 0.61};
-const Colour far_rock{0.955, 0.95, 0.935};
+const Colour far_assembly{0.955, 0.95, 0.935};
 const Colour mesh_edge{0.80, 0.79, 0.77};
 
 /// xmin, xmax, ymin, ymax, zmin, zmax [mm]
@@ -55,7 +55,7 @@ struct Window {
   double top() const { return z_middle + 0.5 * height; }
 };
 
-vtkSmartPointer<vtkLookupTable> lookup_table(const RockPicture& picture)
+vtkSmartPointer<vtkLookupTable> lookup_table(const AssemblyPicture& picture)
 {
   vtkNew<vtkColorTransferFunction> blend;
   blend->SetColorSpaceToLab();
@@ -77,7 +77,8 @@ vtkSmartPointer<vtkLookupTable> lookup_table(const RockPicture& picture)
   return table;
 }
 
-/// The particles of the half y >= 0, without those of a whole model in front of the cut.
+/// The particles of the half y >= 0; those of a full model in front of the cut are left
+/// out.
 vtkSmartPointer<vtkPolyData> behind_the_cut(vtkPolyData* particles,
                                             const std::string& array)
 {
@@ -120,7 +121,7 @@ vtkSmartPointer<vtkActor> spheres(vtkPolyData* particles, vtkLookupTable* table)
   return actor;
 }
 
-/// The whole pile: a half one gets its mirror image.
+/// The full pile: a half one gets its mirror image.
 vtkSmartPointer<vtkActor> pile(vtkPolyData* surface)
 {
   vtkNew<vtkAppendPolyData> whole;
@@ -140,7 +141,7 @@ vtkSmartPointer<vtkActor> pile(vtkPolyData* surface)
   joined->SetTolerance(1e-6);
   vtkNew<vtkPolyDataNormals> normals;
   normals->SetInputConnection(joined->GetOutputPort());
-  normals->SetFeatureAngle(20.0); // the shoulder of a 60 degree cone turns by 30
+  normals->SetFeatureAngle(20.0); // the shoulder of a 60 degree cone has 30
   normals->ConsistencyOn();
   normals->AutoOrientNormalsOff();
   vtkNew<vtkPolyDataMapper> mapper;
@@ -162,10 +163,10 @@ struct Section {
   vtkSmartPointer<vtkActor> face, edges;
 };
 
-Section section(vtkUnstructuredGrid* far_field, const RockPicture& picture,
+Section section(vtkUnstructuredGrid* far_field, const AssemblyPicture& picture,
                 vtkLookupTable* table)
 {
-  vtkNew<vtkWarpVector> moved; // where it is now, as the particles are
+  vtkNew<vtkWarpVector> moved; // at present positions, as the particles are
   moved->SetInputData(far_field);
   moved->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS,
                                 "displacement");
@@ -190,7 +191,7 @@ Section section(vtkUnstructuredGrid* far_field, const RockPicture& picture,
   }
   auto face = vtkSmartPointer<vtkActor>::New();
   face->SetMapper(face_mapper);
-  face->GetProperty()->SetColor(far_rock[0], far_rock[1], far_rock[2]);
+  face->GetProperty()->SetColor(far_assembly[0], far_assembly[1], far_assembly[2]);
   face->GetProperty()->LightingOff();
 
   vtkNew<vtkExtractEdges> lines;
@@ -229,8 +230,8 @@ void look_along_y(vtkRenderer* scene, const Window& window)
   scene->AddLight(eye);
 }
 
-/// Where a value stands on the colour bar: 0 at its foot, 1 at its head.
-double fraction(const RockPicture& picture, double value)
+/// Position of a value on the colour bar: 0 at its foot, 1 at its head.
+double fraction(const AssemblyPicture& picture, double value)
 {
   if (picture.is_logarithmic)
     return std::log(value / picture.low) / std::log(picture.high / picture.low);
@@ -238,7 +239,7 @@ double fraction(const RockPicture& picture, double value)
 }
 
 /// Values written beside the colour bar.
-std::vector<double> legend_ticks(const RockPicture& picture)
+std::vector<double> legend_ticks(const AssemblyPicture& picture)
 {
   if (!picture.is_logarithmic) return round_ticks(picture.low, picture.high, 5);
   std::vector<double> decades;
@@ -248,7 +249,7 @@ std::vector<double> legend_ticks(const RockPicture& picture)
 }
 
 /// The colour bar, its title above it.
-void draw_legend(Page& page, const Box& bar, const RockPicture& picture,
+void draw_legend(Page& page, const Box& bar, const AssemblyPicture& picture,
                  vtkLookupTable* table)
 {
   const double u = page.unit();
@@ -283,7 +284,8 @@ struct Layout {
   bool has_close_up = false;
 };
 
-/// Distance from the axis [mm] within which nearly all particles lie; debris flies further.
+/// Distance from the axis [mm] within which nearly all particles lie; debris is farther
+/// off.
 double region_radius(vtkPolyData* particles)
 {
   std::vector<double> x(static_cast<std::size_t>(particles->GetNumberOfPoints()));
@@ -312,8 +314,9 @@ Layout layout(const Page& page, const ResultFrame& frame)
   whole.x_middle = 0.0;
 
   // As high as the page, unless that would leave no room for the width.
-  const double least_width = 2.3 * radius, good_width = 2.7 * radius;
-  const double px_per_mm = std::min((top - 115.0 * u) / whole.height, room / least_width);
+  const double smallest_width = 2.3 * radius, good_width = 2.7 * radius;
+  const double px_per_mm =
+      std::min((top - 115.0 * u) / whole.height, room / smallest_width);
   const double height = whole.height * px_per_mm, bottom = top - height;
   double main_width = std::min(room, std::max(good_width, 0.5 * whole.height) * px_per_mm);
 
@@ -356,7 +359,7 @@ std::vector<Colour> displacement_colours()
           {0.08, 0.13, 0.37}};
 }
 
-void draw_rock(Page& page, const ResultFrame& frame, const RockPicture& picture)
+void draw_assembly(Page& page, const ResultFrame& frame, const AssemblyPicture& picture)
 {
   const auto table = lookup_table(picture);
   const auto particles = behind_the_cut(frame.particles, picture.array);

@@ -1,5 +1,5 @@
-/// The rock cut open along the pile's axis: particles as spheres, pile, a section of the
-/// far field.
+/// The assembly cut open along the axis of the pile: particles, pile, a section of the far
+/// field.
 #pragma once
 
 #include "apps/view/page.h"
@@ -10,8 +10,8 @@
 
 namespace mergel::apps {
 
-/// What colours the rock, and the words around it.
-struct RockPicture {
+/// Colours of the assembly, and the texts of the picture.
+struct AssemblyPicture {
   std::string array;                  ///< point array of the particles, one component
   double low = 0.0, high = 1.0;       ///< values at the ends of the colours
   bool is_logarithmic = false;        ///< then 0 < low < high, powers of ten
@@ -21,14 +21,14 @@ struct RockPicture {
   std::string caption;                ///< above the picture
 };
 
-/// Light rock to dark red, lightness falling evenly.
+/// Light beige to dark red, lightness decreasing evenly.
 std::vector<Colour> damage_colours();
 
-/// Light to dark blue, lightness falling evenly.
+/// Light to dark blue, lightness decreasing evenly.
 std::vector<Colour> displacement_colours();
 
-/// Draw the half y >= 0 as seen along +y, the pile whole, axes in mm; with a close-up
-/// around the tip beside it if the DEM region is slender enough to leave room.
-void draw_rock(Page& page, const ResultFrame& frame, const RockPicture& picture);
+/// Draws the half y >= 0 as seen along +y, the full pile, axes in mm; with a close-up of
+/// the tip beside it if the DEM region is slender enough to leave room.
+void draw_assembly(Page& page, const ResultFrame& frame, const AssemblyPicture& picture);
 
 } // namespace mergel::apps

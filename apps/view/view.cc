@@ -53,9 +53,9 @@ Size parse_size(const std::string& text)
   return size;
 }
 
-/// VTK aborts without a message of ours when it finds no display: look first. The
-/// connection stays open, as Xvfb starts anew when its last client leaves and then refuses
-/// VTK.
+/// Checks for a display, because VTK aborts without one and without a message of ours. The
+/// connection stays open, because Xvfb restarts when its last client leaves and then
+/// refuses VTK.
 class DisplayConnection {
 public:
   DisplayConnection() = default;
@@ -84,20 +84,20 @@ std::string caption(const dem::Table& history, double time)
   return text;
 }
 
-RockPicture damage_picture()
+AssemblyPicture damage_picture()
 {
-  RockPicture picture;
+  AssemblyPicture picture;
   picture.array = "damage";
   picture.colours = damage_colours();
   picture.legend = "damage of\nthe bonds";
   return picture;
 }
 
-/// Three decades below the power of ten above `largest` [mm]: beside a pile the rock moves
-/// by its radius, the far field by a thousandth of it.
-RockPicture displacement_picture(double largest)
+/// Three decades below the power of ten above `largest` [mm]: beside a pile the particles
+/// move by its radius, the far field by a thousandth of it.
+AssemblyPicture displacement_picture(double largest)
 {
-  RockPicture picture;
+  AssemblyPicture picture;
   picture.array = displacement_array;
   picture.high = std::pow(10.0, std::ceil(std::log10(largest)));
   picture.low = 1e-3 * picture.high;
@@ -115,7 +115,7 @@ struct Options {
   fs::path output;                  ///< of the pictures; empty: the only folder
   std::vector<std::string> curves;  ///< "X:Y" of each panel of curve.png; empty: none
   std::vector<std::string> points;  ///< files that are laid over the curves
-  std::string leg;                  ///< of element runs; empty: all
+  std::string stage;                ///< of element runs; empty: all
   int frame = -1;
   bool has_frame = false, has_size = false;
   Size size;
@@ -128,11 +128,11 @@ dem::Table history_of(const fs::path& folder)
   if (history.is_last_line_cut)
     std::cerr
         << "mergel-view: " << history.file.string()
-        << ": the last line is not complete (is the run still going?) and is left out.\n";
+        << ": the last line is not complete (is the run still active?) and is left out.\n";
   return history;
 }
 
-/// Where the pictures go; made if it is not there.
+/// The folder of the pictures; made if it does not exist.
 fs::path picture_folder(const Options& options)
 {
   if (options.output.empty()) return options.folders.front();
@@ -159,10 +159,10 @@ void draw_pile(const Options& options, const dem::Table& history)
                      " holds a pile run. Leave it out.");
   ResultFrame frame = read_frame(folder, options.frame);
   const fs::path output = picture_folder(options);
-  const auto draw_picture = [&](RockPicture picture, const char* name) {
+  const auto draw_picture = [&](AssemblyPicture picture, const char* name) {
     picture.caption = caption(history, frame.time);
     Page page(options.size.width, options.size.height);
-    draw_rock(page, frame, picture);
+    draw_assembly(page, frame, picture);
     save(page, output / name);
   };
 
@@ -191,7 +191,7 @@ std::vector<std::string> folder_labels(const std::vector<std::string>& folders)
   return is_unique ? names : folders;
 }
 
-/// The names of runs that lie on each other.
+/// The names of runs that are drawn over each other.
 std::vector<RunName> run_names(const Options& options)
 {
   const auto& folders = options.folders;
@@ -239,7 +239,7 @@ void draw_bonds(const Options& options, const std::vector<dem::Table>& histories
   save(surface, output / "surface.png");
 }
 
-/// Runs on each other in these panels.
+/// Draws runs over each other in these panels.
 void draw_panels(const Options& options, const std::vector<RunPlot>& plots,
                  const std::vector<Run>& runs, const char* name)
 {
@@ -253,35 +253,35 @@ void draw_panels(const Options& options, const std::vector<RunPlot>& plots,
   save(page, output / name);
 }
 
-std::vector<Run> runs_of(const Options& options, const Legs& legs,
+std::vector<Run> runs_of(const Options& options, const Stages& stages,
                          const std::vector<dem::Table>& histories)
 {
   const std::vector<RunName> names = run_names(options);
   std::vector<Run> runs;
   for (std::size_t k = 0; k < histories.size(); ++k)
-    runs.push_back({names[k], from_legs(histories[k], legs)});
+    runs.push_back({names[k], from_stages(histories[k], stages)});
   return runs;
 }
 
-void draw_elements(const Options& options, const Legs& legs,
+void draw_elements(const Options& options, const Stages& stages,
                    const std::vector<dem::Table>& histories)
 {
-  const std::vector<Run> runs = runs_of(options, legs, histories);
+  const std::vector<Run> runs = runs_of(options, stages, histories);
   if (is_isotropic(runs))
-    draw_panels(options, isotropic_plots(runs, legs), runs, "isotropic.png");
+    draw_panels(options, isotropic_plots(runs, stages), runs, "isotropic.png");
   else
-    draw_panels(options, element_plots(runs, legs), runs, "element.png");
+    draw_panels(options, element_plots(runs, stages), runs, "element.png");
 }
 
-void draw_curves(const Options& options, const Legs& legs,
+void draw_curves(const Options& options, const Stages& stages,
                  const std::vector<dem::Table>& histories)
 {
-  const std::vector<Run> runs = runs_of(options, legs, histories);
+  const std::vector<Run> runs = runs_of(options, stages, histories);
   std::vector<RunPlot> plots;
   for (const std::string& text : options.curves) {
     auto [x, y] = curve_of(text);
-    name_legs(x, legs);
-    name_legs(y, legs);
+    name_stages(x, stages);
+    name_stages(y, stages);
     try {
       plots.push_back(plot_of(x, y, runs));
     } catch (const InputError& error) {
@@ -317,12 +317,12 @@ void draw(const Options& options)
                               folders[k] + " " + described(other) +
                               ": they have no picture in common. Draw them one by one.");
   }
-  const Legs legs = options.leg.empty() ? Legs{} : legs_of(options.leg);
-  require(legs.is_all() || job == Job::element,
-          "--leg " + options.leg + ": is for element runs; " + folders.front() + " holds " +
-              described(job) + ". Leave it out.");
+  const Stages stages = options.stage.empty() ? Stages{} : stages_of(options.stage);
+  require(stages.is_all() || job == Job::element,
+          "--stage " + options.stage + ": is for element runs; " + folders.front() +
+              " holds " + described(job) + ". Leave it out.");
   if (!options.curves.empty()) {
-    draw_curves(options, legs, histories);
+    draw_curves(options, stages, histories);
     return;
   }
   require(options.points.empty() || job == Job::element,
@@ -330,7 +330,7 @@ void draw(const Options& options)
               ": is for element runs and for --curve; " + folders.front() + " holds " +
               described(job) + ". Leave it out.");
   if (job == Job::element) {
-    draw_elements(options, legs, histories);
+    draw_elements(options, stages, histories);
   } else if (job == Job::bond) {
     draw_bonds(options, histories);
   } else {
@@ -350,15 +350,16 @@ int main(int argc, char** argv)
   std::string size_text = "1600x1200";
   CLI::App app(
       "Draw runs. A pile run: damage.png, displacement.png and load.png. Bond runs, "
-      "one or several on each other: loads.png and surface.png. Element runs, one or "
+      "one or several: loads.png and surface.png. Element runs, one or "
       "several: element.png (q and volumetric strain over axial strain, q and void ratio "
       "over p) or, where |q| stays below 1 % of p, isotropic.png (p over volumetric "
       "strain, "
       "void ratio over log p). Any runs, with --curve: curve.png.",
       "mergel-view");
-  app.add_option("DIR", options.folders,
-                 "Results folder written by 'mergel pile', 'mergel bond' or 'mergel "
-                 "element'; several of one job lie on each other (pile: with --curve)")
+  app.add_option(
+         "DIR", options.folders,
+         "Results folder written by 'mergel pile', 'mergel bond' or 'mergel "
+         "element'; several of one job are drawn over each other (pile: with --curve)")
       ->required();
   app.add_option("--output", options.output,
                  "Folder for the pictures (default: DIR; required with several)");
@@ -373,11 +374,11 @@ int main(int argc, char** argv)
          "as \"axial strain:q\" or \"log p [kPa]:void ratio\"; A/B is the ratio of two "
          "columns (q/p), [unit] any that fits; repeat for more panels")
       ->allow_extra_args(false);
-  app.add_option("--leg", options.leg,
-                 "Of element runs draw only from this leg on (2), or these legs (2-3); "
-                 "axial and volumetric strain then count from its start (of a leg that "
+  app.add_option("--stage", options.stage,
+                 "Of element runs draw only from this stage on (2), or these stages (2-3); "
+                 "axial and volumetric strain then count from its start (of a stage that "
                  "resumes: from that "
-                 "of the leg resumed)");
+                 "of the stage resumed)");
   app.add_option(
          "--points", options.points,
          "Points to lay over curves: a CSV file of two columns named as the axes of a "
