@@ -6,19 +6,14 @@
 #   MERGEL    the program
 #   CASE.prm  a good case of the job pile; default apps/cases/pile_small.prm
 # Prints one line for each check that fails, then a count; exit code 1 if any failed.
-set -euo pipefail
-
 [ $# -ge 1 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 1; }
-root=$(cd "$(dirname "$0")/../.." && pwd)
-mergel=$(readlink -f "$1")
-case_file=$(readlink -f "${2:-$root/apps/cases/pile_small.prm}")
+good=${2:+$(readlink -f "$2")}
+. "$(dirname "$0")/preamble.sh"
+case_file=${good:-$case_file}
 
 # A specimen that is made in seconds, and is not the one of CASE.prm.
 tiny=(--set "Specimen/diameter=6 mm" --set "Specimen/height=6 mm")
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
 n_checks=0 n_failed=0
 
 # Names and contents of all files below the working folder.
@@ -40,8 +35,8 @@ refuse()
   local log=$work.log
   n_checks=$((n_checks + 1))
   before=$(tree)
-  timeout 120 "$mergel" "$@" >"$log" 2>&1 </dev/null || code=$?
-  sed -i -E '/^specimen +[0-9.]+ %/d' "$log" # how far one was, where it takes long to be refused
+  bounded "$mergel" "$@" >"$log" 2>&1 </dev/null || code=$?
+  sed -i -E '/^specimen +[0-9.]+ %/d' "$log" # progress, where a refusal takes long
   if [ "$code" -ne 1 ]; then
     fail "exit code $code, not 1"
   elif [ "$(wc -l <"$log")" -ne 1 ]; then
@@ -74,7 +69,7 @@ edited()
   fi
 }
 
-# In a file a relative path starts at the file's folder: keep those of the good case valid.
+# In a file a relative path starts at the folder of the file: keep those of the good case valid.
 sed -E "s#^([[:space:]]*set[^=]*=[[:space:]]*)(\.\.?/)#\1$(dirname "$case_file")/\2#" \
   "$case_file" >good.prm
 
@@ -112,15 +107,15 @@ refuse "section left open" 'case\.prm:[0-9]+: subsection .*"end".*' pile case.pr
 refuse "key given twice" 'case\.prm:[0-9]+: Pile/diameter = 2 mm: already set in line [0-9]+\. .*' \
   pile case.prm --output out
 
-## values that do not go together; each names a key and where it stands
+## values that contradict each other; the message names a key and its place
 place='((good\.prm(:[0-9]+)?: )|--set )'
-refuse_set "porosity that spheres cannot reach" "${place}Specimen/porosity = 0\.2: .*" \
+refuse_set "porosity that particles cannot reach" "${place}Specimen/porosity = 0\.2: .*" \
   "Specimen/porosity=0.2"
 refuse_set "porosity that only pressure reaches" "${place}Specimen/porosity = 0\.485: .*between some 0\.[0-9]+ and 1; .*" \
   "Specimen/porosity=0.485" "Specimen/diameter=6 mm" "Specimen/height=6 mm"
-refuse_set "grains too large for the region" "${place}Specimen/inner upscaling = 20: .*" \
+refuse_set "particles too large for the region" "${place}Specimen/inner upscaling = 20: .*" \
   "Specimen/inner upscaling=20"
-refuse_set "more grains than a machine holds" "${place}Specimen/smallest diameter = .*: .*2e7.*" \
+refuse_set "more particles than a machine holds" "${place}Specimen/smallest diameter = .*: .*2e7.*" \
   "Specimen/smallest diameter=0.001 mm" "Specimen/largest diameter=0.002 mm"
 refuse_set "pile wider than the DEM region" "${place}(Pile|Specimen)/diameter = .*: .*" \
   "Pile/diameter=20 mm"
@@ -129,9 +124,9 @@ refuse_set "DEM region wider than the far field" "${place}(Specimen|Far field)/.
 
 ## the output folder
 echo text >file
-refuse "a file in the way" 'output folder file: .*file" is in its way and is no folder\. .*' \
+refuse "a file in the way" 'output folder file: .*file" exists and is not a folder\. .*' \
   pile good.prm --output file
-refuse "a file above" 'output folder file/results: .*file" is in its way and is no folder\. .*' \
+refuse "a file above" 'output folder file/results: .*file" exists and is not a folder\. .*' \
   pile good.prm --output file/results
 mkdir earlier earlier/fields
 echo text >earlier/history.csv
@@ -192,12 +187,12 @@ sample_set()
 head='diameter [mm],passing [%]'
 sizes() { printf '%s\n' "$head" "$@" >sizes.csv; }
 curve='--set Specimen/size table = sizes\.csv: .*sizes\.csv'
-sample_set "sizes that are not there" "$curve: cannot be read\. .*" "Specimen/size table=sizes.csv"
+sample_set "a size table that does not exist" "$curve: cannot be read\. .*" "Specimen/size table=sizes.csv"
 sizes 0.1,0 0.2,40 0.15,100
 sample_set "sizes that do not ascend" "$curve:4: diameter = 0\.15 mm: must be above .*" \
   "Specimen/size table=sizes.csv"
 sizes 0.1,0 0.2,40 0.25,30 0.3,100
-sample_set "passing that falls" "$curve:4: passing = 30 %: must not be below .*" \
+sample_set "passing that decreases" "$curve:4: passing = 30 %: must not be below .*" \
   "Specimen/size table=sizes.csv"
 sizes 0.1,0 0.2,40
 sample_set "a curve without its end" "$curve:3: passing = 40 %: must be 100 .*" \
@@ -210,17 +205,17 @@ refuse "graded without an axis" \
   'graded\.prm:[0-9]+: Specimen/upscaling = graded: a periodic box has no axis: .*' \
   sample graded.prm --output out --set "Specimen/inner upscaling=2" \
   --set "Specimen/outer upscaling=3" --set "Specimen/inner radius=1 mm" --set "Specimen/outer radius=2 mm"
-sample_set "a box smaller than its grains" '--set Specimen/upscaling ratio = 80: the largest grain, .*' \
+sample_set "a box smaller than its particles" '--set Specimen/upscaling ratio = 80: the largest particle, .*' \
   "Specimen/upscaling ratio=80"
-sample_set "a box in which a grain meets its own image" \
-  '--set Specimen/upscaling ratio = 10: the largest grain, 1\.337 mm, .*wider than .*' \
+sample_set "a box in which a particle touches its own image" \
+  '--set Specimen/upscaling ratio = 10: the largest particle, 1\.337 mm, .*wider than .*' \
   "Specimen/upscaling ratio=10" "Specimen/edge z=2.9 mm"
-sample_set "a pressure of nothing" '--set Specimen/target pressure = 0 Pa: must satisfy .*> 0.*' \
+sample_set "a pressure of zero" '--set Specimen/target pressure = 0 Pa: must satisfy .*> 0.*' \
   "Specimen/target pressure=0 Pa"
-sample_set "a box too dense for its shells" '--set Specimen/porosity = 0\.4: must be at least 0\.[0-9]+ and at most some 0\.[0-9]+, .*' \
+sample_set "a box too dense for its shells" '--set Specimen/porosity = 0\.4: must be at least 0\.[0-9]+ and at most about 0\.[0-9]+, .*' \
   "Specimen/porosity=0.4"
 sample_set "a box too loose for its pressure" \
-  '--set Specimen/porosity = 0\.7: cannot be met together with .*lock between 0\.[0-9]+ .*' \
+  '--set Specimen/porosity = 0\.7: cannot be reached together with .*jam at porosities between 0\.[0-9]+ .*' \
   "Specimen/porosity=0.7" "Specimen/upscaling ratio=14" "Specimen/target pressure=50 kPa"
 variability="Strength variability"
 sample_set "unknown distribution" \
@@ -237,7 +232,7 @@ refuse_set "a width without a distribution" \
 edited case.prm '/set symmetry/d'
 refuse "a pile in a whole cylinder" '--set Specimen/shape = cylinder: .*half cylinder.*' \
   pile case.prm --output out --set "Specimen/shape=cylinder"
-refuse_set "a pile's rock under pressure" "${place}Specimen/packing = confined: .*use .unjammed." \
+refuse_set "a specimen of a pile under pressure" "${place}Specimen/packing = confined: .*use .unjammed." \
   "Specimen/packing=confined"
 
 ## one bond
@@ -245,7 +240,7 @@ cp "$root/apps/cases/bond_fig5a.prm" bond.prm
 path='bond\.prm:[0-9]+: Loading/path = .*'
 corner() { printf '%s\n' "$@" >bond_fig5a.csv; }
 head='u_n [m],u_s [m],theta [rad]'
-refuse "path that is not there" "$path: .*bond_fig5a\.csv: cannot be read\. .*" bond bond.prm --output out
+refuse "path that does not exist" "$path: .*bond_fig5a\.csv: cannot be read\. .*" bond bond.prm --output out
 corner 'u_n [mm],u_s [m],theta [rad]' 0.1,0,0
 refuse "path in another unit" "$path: .*no column 'u_n \[m\]'; there are 'u_n \[mm\]', .*" bond bond.prm --output out
 corner 'u_n [m],theta [rad]' 1e-4,0
@@ -261,14 +256,14 @@ refuse "path with an empty value" "$path: .*:3: every motion must be a finite nu
 corner "$head" 1e-4,0
 refuse "path with a short line" "$path: .*:2: 2 values under 3 headings\." bond bond.prm --output out
 corner "$head" 1e-4,0,0 -20e-3,0,0
-refuse "path through the spheres" "$path: .*:3: u_n = -0\.02 m makes the spheres overlap .*at least -0\.01775 m" bond bond.prm --output out
+refuse "path through the particles" "$path: .*:3: u_n = -0\.02 m makes the particles overlap .*at least -0\.01775 m" bond bond.prm --output out
 corner "$head" 1e-4,4,0
-refuse "path in metres by mistake" "$path: .*:2: a displacement exceeds 1000 radii: .*" bond bond.prm --output out --set "Spheres/radius=1 mm"
+refuse "path in metres by mistake" "$path: .*:2: a displacement exceeds 1000 radii: .*" bond bond.prm --output out --set "Particles/radius=1 mm"
 cp "$root/apps/cases/bond_fig5a.csv" .
 refuse "zero stiffness ratio" '--set Bond/stiffness ratio = 0: must satisfy .*> 0.*' \
   bond bond.prm --output out --set "Bond/stiffness ratio=0"
-refuse "no steps" '--set Loading/steps per leg = 0: must satisfy .*' bond bond.prm --output out \
-  --set "Loading/steps per leg=0"
+refuse "no steps" '--set Loading/steps per stage = 0: must satisfy .*' bond bond.prm --output out \
+  --set "Loading/steps per stage=0"
 refuse "a key of another law" 'bond\.prm:[0-9]+: Bond/compressive strength = 10 MPa: is a key of `bond law` = damage; .*' \
   bond bond.prm --output out --set "Bond/bond law=parallel"
 refuse "a key of another mode" '--set Loading/rotation = 1 rad: is a key of `mode` = .*; here it is path\. .*' \

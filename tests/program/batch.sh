@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the batch scripts do, with stand-ins for srun, scancel, mpirun, scontrol and mergel: which
-# command they start, and who is told what when the time limit comes, the job is cancelled, or the run fails.
+# What the batch scripts do, with stand-ins for srun, scancel, mpirun, scontrol and mergel: which command
+# they start, and which signals they send at the time limit, when the job is cancelled or when the run fails.
 #
 # usage: tests/program/batch.sh
 # Prints one line for each check that fails, then a count; exit code 1 if any failed.
@@ -33,8 +33,8 @@ is() { [ "$1" = "$2" ]; }
 mkdir bin build
 cat >bin/srun <<'STUB'
 #!/usr/bin/env bash
-# Starts the run. SIGTERM, SIGINT and SIGHUP it answers itself: "forcing job termination", and
-# SIGKILL to the run. Other signals it passes on (Slurm's src/srun, the manager of its signals).
+# Starts the run. On SIGTERM, SIGINT and SIGHUP it sends SIGKILL to the run ("forcing job
+# termination"). It forwards other signals (Slurm's src/srun, the manager of its signals).
 echo "srun $*" >>calls
 while [[ $1 == -* ]]; do shift; done
 "$@" &
@@ -47,14 +47,14 @@ exit $code
 STUB
 cat >bin/scancel <<'STUB'
 #!/usr/bin/env bash
-# With --signal: to the steps of the job, neither to its script nor to srun.
+# With --signal: signals the steps of the job, neither its script nor srun.
 echo "scancel $*" >>calls
 [ ! -e no_scancel ] || exit 1
 [ "$1" = --signal=TERM ] && kill -TERM "$(cat ranks)"
 STUB
 cat >bin/mpirun <<'STUB'
 #!/usr/bin/env bash
-# Passes SIGUSR1 on; after SIGTERM the run is killed, as by mpirun after a second.
+# Forwards SIGUSR1; after SIGTERM it kills the run, as mpirun does after a second.
 echo "mpirun $*" >>calls
 while [[ $1 == -* ]]; do shift; [[ $1 == core ]] && shift; done
 "$@" &
@@ -71,7 +71,7 @@ STUB
 cat >build/mergel <<'STUB'
 #!/usr/bin/env bash
 # Ends with the code in the file `code`; without one it runs until a signal, as a long run does.
-# Refuses the folder of an earlier run, unless it may go on there.
+# Refuses the folder of an earlier run, unless it restarts that run.
 echo "mergel $*" >>calls
 restart=''
 while [ $# -gt 0 ]; do
@@ -98,10 +98,10 @@ run()
   rm -f calls ready
   : >calls
   code_of_script=0
-  timeout 60 bash "$batch/$1" "${@:2}" >log 2>&1 || code_of_script=$?
+  timeout 900 bash "$batch/$1" "${@:2}" >log 2>&1 || code_of_script=$?
 }
 
-# interrupted SIGNAL SCRIPT ARGUMENT...: the same, and the signal once the run is under way.
+# interrupted SIGNAL SCRIPT ARGUMENT...: the same, with the signal once the run has started.
 interrupted()
 {
   local signal=$1 pid n
@@ -109,13 +109,13 @@ interrupted()
   : >calls
   bash "$batch/$2" "${@:3}" >log 2>&1 &
   pid=$!
-  for ((n = 0; n < 1200; ++n)); do [ ! -e ready ] || break; sleep 0.05; done
+  for ((n = 0; n < 18000; ++n)); do [ ! -e ready ] || break; sleep 0.05; done
   kill -"$signal" $pid
   code_of_script=0
   wait $pid || code_of_script=$?
 }
 
-# stopped_by_hand RESULTS: a user stops the ranks, once they are under way.
+# stopped_by_hand RESULTS: a user stops the ranks, once they have started.
 stopped_by_hand()
 {
   local pid n
@@ -123,7 +123,7 @@ stopped_by_hand()
   : >calls
   bash "$batch/requeue.sbatch" pile case.prm "$1" >log 2>&1 &
   pid=$!
-  for ((n = 0; n < 1200; ++n)); do [ ! -e ready ] || break; sleep 0.05; done
+  for ((n = 0; n < 18000; ++n)); do [ ! -e ready ] || break; sleep 0.05; done
   scancel --signal=TERM $SLURM_JOB_ID
   code_of_script=0
   wait $pid || code_of_script=$?
@@ -144,7 +144,7 @@ done
 srun='srun --mpi=pmix --cpus-per-task=1 --cpu-bind=cores --kill-on-bad-exit=1'
 echo 0 >code
 run run.sbatch pile "a case.prm" --output "out 1"
-check "a run starts by srun with PMIx, one rank a core" called "$srun $work/build/mergel pile a case.prm --output out 1"
+check "a run starts by srun with PMIx, one rank per core" called "$srun $work/build/mergel pile a case.prm --output out 1"
 check "a run starts mergel" called "mergel pile a case.prm --output out 1"
 check "a run that is done: exit code 0" is "$code_of_script" 0
 echo 2 >code
@@ -156,7 +156,7 @@ run run.sbatch pile
 check "too few arguments: exit code 1" is "$code_of_script" 1
 MERGEL=none run run.sbatch pile case.prm
 check "no program: exit code 1" is "$code_of_script" 1
-check "no program: said" said 'none is no program'
+check "no program: message" said 'none is not a program'
 check "no program: nothing is started" never_called srun
 
 ## an array
@@ -179,13 +179,13 @@ check "the third case, no setting" called "mergel pile cases/large.prm --output 
 for task in 0 4; do
   SLURM_ARRAY_TASK_ID=$task run array.sbatch pile cases.txt runs
   check "no case $task: exit code 1" is "$code_of_script" 1
-  check "no case $task: said" said 'has 3 runs, and no number'
+  check "no case $task: message" said 'has 3 runs, and no run number'
   check "no case $task: nothing is started" never_called srun
 done
 run array.sbatch pile cases.txt runs
-check "no array: said" said 'no task number'
+check "no array: message" said 'no task number'
 SLURM_ARRAY_TASK_ID=3 run array.sbatch pile cases.txt runs
-check "a case that was lost before its first checkpoint is taken up" is "$code_of_script" 0
+check "a case that was lost before its first checkpoint is resumed" is "$code_of_script" 0
 : >runs/3_large/summary.json
 SLURM_ARRAY_TASK_ID=3 run array.sbatch pile cases.txt runs
 check "a case that is done is left alone" never_called srun
@@ -216,14 +216,14 @@ check "stopped by hand: the exit code of mergel" is "$code_of_script" 2
 check "stopped by hand: not queued again" never_called scontrol
 : >no_scancel
 SLURM_RESTART_COUNT=2 interrupted USR1 requeue.sbatch pile case.prm long
-check "without scancel: srun passes SIGUSR1 on" called USR1
+check "without scancel: srun forwards SIGUSR1" called USR1
 check "without scancel: a checkpoint" test -s long/checkpoint_4.h5
 check "without scancel: then the end" called KILL
 check "without scancel: queued again" called "scontrol requeue 17"
 rm no_scancel
 SLURM_RESTART_COUNT=2 MERGEL_MOST_RESTARTS=2 interrupted USR1 requeue.sbatch pile case.prm long
-check "the most restarts are kept" never_called scontrol
-check "the most restarts: said" said 'queued again 2 times already'
+check "the limit of restarts holds" never_called scontrol
+check "the limit of restarts: message" said 'queued again 2 times already'
 for code in 0 1 2 3; do
   echo $code >code
   SLURM_RESTART_COUNT=2 run requeue.sbatch pile case.prm long
@@ -233,7 +233,7 @@ done
 : >deaf
 SLURM_RESTART_COUNT=2 interrupted USR1 requeue.sbatch pile case.prm long
 check "no new checkpoint is not queued again" never_called scontrol
-check "no new checkpoint: said" said 'without a new checkpoint'
+check "no new checkpoint: message" said 'without a new checkpoint'
 rm deaf
 : >long/summary.json
 run requeue.sbatch pile case.prm long
@@ -243,7 +243,7 @@ mkdir lost
 : >lost/history.csv
 echo 0 >code
 run requeue.sbatch pile case.prm lost
-check "lost before the first checkpoint: taken up" is "$code_of_script" 0
+check "lost before the first checkpoint: resumed" is "$code_of_script" 0
 export MERGEL_LAUNCHER="mpirun --map-by core"
 interrupted USR1 requeue.sbatch pile case.prm other
 check "mpirun: a checkpoint first" called USR1

@@ -1,21 +1,14 @@
 #!/usr/bin/env bash
-# A tiny coupled installation, whole: the files it promises, the same bits when repeated or run
+# A tiny coupled installation from start to end: its files, the same bits when repeated or run
 # from its own sample and resolved case; rigid walls stiffer than the far field.
 #
 # usage: tests/program/end_to_end.sh MERGEL
-set -euo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
-mergel=$(readlink -f "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
+. "$(dirname "$0")/preamble.sh"
 
-fail() { echo "FAILED: $*"; exit 1; }
-
-# Some 540 grains in a region of 6 x 6 mm, driven until the tip is 1.7 mm deep.
+# Some 540 particles in a region of 6 x 6 mm, penetrated until the tip is 1.7 mm deep.
 tiny=(--set "Specimen/diameter=6 mm" --set "Specimen/height=6 mm" --set "Specimen/inner upscaling=5"
   --set "Specimen/outer radius=3 mm" --set "Far field/chamber diameter=12 mm"
-  --set "Far field/chamber height=12 mm" --set "Output/frames=2" --set "Motion/balance=1e-3")
+  --set "Far field/chamber height=12 mm" --set "Output/frames=2" --set "Motion/unbalanced-force tolerance=1e-3")
 punch=("${tiny[@]}")
 tiny+=(--set "Pile/final depth=0.5 mm")
 case_file=$root/apps/cases/pile_small.prm
@@ -29,7 +22,7 @@ done
 head -1 a/history.csv | grep -q '^time \[s\],depth \[m\],depth/D_p \[-\],tip depth \[m\],' ||
   fail "the header of history.csv"
 [ "$(wc -l <a/history.csv)" -gt 150 ] || fail "a line every 0.01 mm of 1.7 mm travel"
-grep -q 'energy book closes to' a.log || fail "the closing summary"
+grep -q 'largest energy error' a.log || fail "the closing summary"
 
 # Repeated from its own resolved case and from its own sample: the same bits.
 "$mergel" pile a/resolved.prm --output b >b.log || fail "from resolved.prm: $(cat b.log)"
@@ -43,21 +36,21 @@ cmp a/history.csv c/history.csv || fail "a run from the written sample differs"
   fail "from mergel sample: $(cat e.log)"
 cmp a/history.csv e/history.csv || fail "a run from mergel sample differs"
 
-# Energy: the worst error of the book is in the summary, and stays under 1 %.
+# Energy: the largest error of the balance is in the summary and below 1 %.
 /usr/bin/env awk -F'[:,]' '/largest energy error/ { exit !($2 < 0.01) }' a/summary.json ||
-  fail "the energy book leaves more than 1 %"
+  fail "the energy error exceeds 1 %"
 
-# An earlier run is kept, unless told otherwise; then only what mergel wrote goes.
+# An earlier run is kept without --overwrite; with it only files of mergel are removed.
 if "$mergel" pile "$case_file" "${tiny[@]}" --output a >f.log 2>&1; then fail "an earlier run was replaced"; fi
 echo mine >a/notes.txt
 "$mergel" pile "$case_file" "${tiny[@]}" --output a --overwrite \
   --set "Specimen/file=c/sample.h5" >g.log || fail "with --overwrite: $(cat g.log)"
 [ "$(cat a/notes.txt)" = mine ] || fail "--overwrite touched a file that is not ours"
 
-# Walls that do not give way are stiffer than the far field: a blunt punch on rock that cannot break, same travel.
+# Rigid walls are stiffer than the far field: a blunt punch on an assembly that cannot break, same travel.
 punch+=(--set "Specimen/file=c/sample.h5" --set "Bond/tensile strength=1e6 MPa"
   --set "Bond/compressive strength=1e6 MPa" --set "Bond/shear strength=1e6 MPa" --set "Pile/diameter=3 mm"
-  --set "Pile/cone angle=170 degree" --set "Pile/final depth=0.02 mm" --set "Pile/velocity=0.5 m/s")
+  --set "Pile/cone angle=170 degree" --set "Pile/final depth=0.02 mm" --set "Pile/penetration rate=0.5 m/s")
 "$mergel" pile "$case_file" "${punch[@]}" --output soft >h.log || fail "the punch: $(cat h.log)"
 "$mergel" pile "$case_file" "${punch[@]}" --set "Far field/model=rigid" --output hard >i.log ||
   fail "the punch in rigid walls: $(cat i.log)"
@@ -68,4 +61,4 @@ last_force() { tail -1 "$1/history.csv" | cut -d, -f5; }
 awk -v hard="$(last_force hard)" -v soft="$(last_force soft)" 'BEGIN { exit !(hard > 1.02 * soft && soft > 0) }' ||
   fail "rigid walls are not stiffer: $(last_force hard) N, far field $(last_force soft) N"
 
-echo "end to end: all holds; punch in the far field $(last_force soft) N, in rigid walls $(last_force hard) N"
+echo "end to end: all checks hold; punch in the far field $(last_force soft) N, in rigid walls $(last_force hard) N"

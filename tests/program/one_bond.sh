@@ -1,16 +1,9 @@
 #!/usr/bin/env bash
-# mergel bond as its user meets it: every case of apps/cases runs, closes its energy, repeats to
-# the bit from its resolved case, and has the strengths of design and paper (Table 1 left).
+# mergel bond as a user runs it: every case of apps/cases balances its energy, repeats to the bit
+# from its resolved case, and has the strengths of the paper (Table 1 left).
 #
 # usage: tests/program/one_bond.sh MERGEL
-set -euo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
-mergel=$(readlink -f "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-
-fail() { echo "FAILED: $*"; exit 1; }
+. "$(dirname "$0")/preamble.sh"
 figure() { awk -F': ' -v name="\"$2\"" 'index($0, name) { print $2 + 0 }' "$1/summary.json"; }
 # near VALUE EXPECTED RELATIVE
 near() { awk -v a="$1" -v b="$2" -v e="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(d <= e * (b < 0 ? -b : b)) }'; }
@@ -20,8 +13,8 @@ for case_file in "$root"/apps/cases/bond_*.prm; do
   run=$(basename "$case_file" .prm)
   "$mergel" bond "$case_file" --output "$run" >"$run.log" || fail "$run: $(cat "$run.log")"
   holds_nan "$run" && fail "$run holds a NaN"
-  # Round-off alone (1e-13) while the bond acts; where the contact closes, it does so within a step,
-  # of which the trapezoid of the work takes the whole: 4e-6 with these steps.
+  # Round-off (1e-13) while the bond acts. Where the contact closes within a step, the trapezoid of
+  # the work counts the whole step: 4e-6 with these steps.
   awk -v e="$(figure "$run" "energy error [-]")" 'BEGIN { exit !(e < 1e-5) }' ||
     fail "$run: energy error $(figure "$run" "energy error [-]")"
 done
@@ -39,7 +32,7 @@ single() # MODE, SET..., then COLUMN STRENGTH
   sed -i "/subsection Bond/,/end/{/displacement\|rotation/d}" "$mode.prm"
   "$mergel" bond "$mode.prm" --output "$mode" --set "Bond/softening displacement=0.1 mm" \
     --set "Bond/softening rotation=1e-4 rad" --set "Loading/$key=$reach" \
-    --set "Loading/steps per leg=1000" >"$mode.log" || fail "$mode: $(cat "$mode.log")"
+    --set "Loading/steps per stage=1000" >"$mode.log" || fail "$mode: $(cat "$mode.log")"
   local last
   last=$(tail -1 "$mode/history.csv" | cut -d, -f"$column")
   near "$last" "$(awk -v s="$strength" 'BEGIN { printf "%.12g", s * exp(-1) }')" 1e-6 ||
@@ -50,15 +43,15 @@ single compression "normal displacement" "1.6 mm" 4 -3141.59265
 single shear "shear displacement" "0.55 mm" 5 471.238898
 single bending rotation "15.1e-3 rad" 6 0.785398163
 
-# A path with a reversal, far outside the surface in one step, with a leg of no length.
+# A path with a reversal, far outside the surface in one step, with a stage of no length.
 cp "$root/apps/cases/bond_fig5b.prm" hard.prm
 printf 'u_n [m],u_s [m],theta [rad]\n0,0,0\n-3e-3,5e-3,0.1\n-3e-3,5e-3,0.1\n1e-2,-5e-3,-0.1\n0,0,0' >bond_fig5b.csv
 for n in 1 2 1000; do
-  "$mergel" bond hard.prm --output "hard$n" --set "Loading/steps per leg=$n" >"hard$n.log" ||
+  "$mergel" bond hard.prm --output "hard$n" --set "Loading/steps per stage=$n" >"hard$n.log" ||
     fail "hard path in $n steps: $(cat "hard$n.log")"
   holds_nan "hard$n" && fail "the hard path in $n steps holds a NaN"
-  [ "$(tail -1 "hard$n/history.csv" | cut -d, -f7)" = 1 ] || fail "the hard path leaves the bond alive"
-  [ "$(wc -l <"hard$n/history.csv")" -eq $((2 + 4 * n)) ] || fail "a line a step, the start and the header"
+  [ "$(tail -1 "hard$n/history.csv" | cut -d, -f7)" = 1 ] || fail "the hard path leaves the bond intact"
+  [ "$(wc -l <"hard$n/history.csv")" -eq $((2 + 4 * n)) ] || fail "one line per step, the start and the header"
 done
 
 # The other law: brittle at sigma_c A.
@@ -68,5 +61,5 @@ sed -e 's/^  set \(compressive\|softening\|bending\).*//' "$case_file" |
   fail "parallel: $(cat parallel.log)"
 near "$(figure parallel "largest tension [N]")" 314.159265 2.1e-3 || # one step of 1/500 of the elastic range
   fail "the parallel bond bears $(figure parallel "largest tension [N]") N"
-[ "$(tail -1 parallel/history.csv | cut -d, -f7)" = 1 ] || fail "the parallel bond lives"
-echo "one bond: all holds"
+[ "$(tail -1 parallel/history.csv | cut -d, -f7)" = 1 ] || fail "the parallel bond is not broken"
+echo "one bond: all checks hold"

@@ -1,69 +1,50 @@
 #!/usr/bin/env bash
-# Checkpoints of a small coupled pile as its user meets them: stopped by SIGTERM on two ranks,
-# restarted on one and three with the same bits; SIGUSR1; --walltime; a full disk; a damaged
-# newest checkpoint; a changed case; mergel info.
+# Checkpoints of a small coupled pile: stopped by SIGTERM on two ranks, restarted on one and three
+# with the same bits; SIGUSR1; --walltime; a full disk; a damaged newest checkpoint; a changed
+# case; mergel info.
 #
 # usage: tests/program/restart.sh MERGEL
-set -euo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
-mergel=$(readlink -f "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
-
-fail() { echo "FAILED: $*"; exit 1; }
-tiny=(--set "Specimen/diameter=6 mm" --set "Specimen/height=6 mm" --set "Specimen/inner upscaling=5"
-  --set "Specimen/outer radius=3 mm" --set "Far field/chamber diameter=12 mm"
-  --set "Far field/chamber height=12 mm" --set "Output/frames=2" --set "Motion/balance=1e-2"
-  --set "Pile/cone angle=120 degree" --set "Pile/final depth=0.15 mm")
-case_file=$root/apps/cases/pile_small.prm
-pile() { timeout 300 "$mergel" pile "$@"; }
-ranks() { local n=$1; shift; timeout 300 mpirun --oversubscribe -n "$n" "$mergel" pile "$@"; }
+. "$(dirname "$0")/preamble.sh"
+tiny+=("${shallow[@]}" --set "Output/frames=2")
+pile() { bounded "$mergel" pile "$@"; }
+ranks() { on_ranks "$1" "$mergel" pile "${@:2}"; }
 checkpoints() { compgen -G "$1/checkpoint_*.h5" | wc -l; }
 newest() { compgen -G "$1/checkpoint_*.h5" | sort | tail -1; }
-wait_for() { # until a file of this pattern is there
-  for _ in $(seq 6000); do compgen -G "$1" >/dev/null && return; sleep 0.02; done
-  fail "$1 never came: $(tail -3 log)"
-}
 same() {
   cmp whole/history.csv "$1/history.csv" || fail "$1: the history differs"
   for file in whole/fields/*; do cmp "$file" "$1/${file#whole/}" || fail "$1: $file differs"; done
 }
-code_of() { local code=0; "$@" >log 2>&1 || code=$?; echo "$code"; }
 
 pile "$case_file" "${tiny[@]}" --output whole >log || fail "the whole run: $(tail -3 log)"
 [ "$(checkpoints whole)" -eq 0 ] || fail "a checkpoint before 10 min"
 cp whole/sample.h5 .
 tiny+=(--set "Specimen/file=$work/sample.h5")
 
-# SIGTERM to one of two ranks, while the rock settles.
-timeout 300 mpirun --oversubscribe -n 2 "$mergel" pile "$case_file" "${tiny[@]}" --output a \
-  --set "Output/checkpoint every=20 steps" >log 2>&1 &
-launched=$!
-wait_for "a/checkpoint_*.h5"
-kill -TERM "$(pgrep -P "$(pgrep -P $launched mpirun)" mergel | tail -1)"
+# SIGTERM to one of two ranks, while the assembly settles.
+launch mpirun --oversubscribe -n 2 "$mergel" pile "$case_file" "${tiny[@]}" --output a \
+  --set "Output/checkpoint every=20 steps" >log 2>&1
+wait_for exists "a/checkpoint_*.h5"
+kill -TERM "$(last_rank)"
 code=0; wait $launched || code=$?
 [ "$code" -eq 2 ] || fail "SIGTERM on two ranks: exit code $code: $(tail -3 log)"
 [ "$(grep -c 'stopped by SIGTERM at step .*(settling), checkpoint a/checkpoint_' log)" -eq 1 ] ||
   fail "SIGTERM on two ranks: $(tail -3 log)"
 grep -q 'Continue with: mergel pile --restart a$' log || fail "how to continue: $(tail -3 log)"
 [ "$(checkpoints a)" -le 2 ] || fail "$(checkpoints a) checkpoints are kept, not two"
-# Restarted on three ranks without a case file; SIGUSR1 asks for a checkpoint and the run goes on,
-# then SIGTERM while it is driven.
-timeout 300 mpirun --oversubscribe -n 3 "$mergel" pile --restart a --set "Output/checkpoint every=never" >log 2>&1 &
-launched=$!
-wait_for "a/fields/particles_0000.vtp"
-first=$(pgrep -P "$(pgrep -P $launched mpirun)" mergel | head -1)
+# Restarted on three ranks without a case file; SIGUSR1 asks for a checkpoint and the run continues,
+# then SIGTERM during the penetration.
+launch mpirun --oversubscribe -n 3 "$mergel" pile --restart a --set "Output/checkpoint every=never" >log 2>&1
+wait_for exists "a/fields/particles_0000.vtp"
+first=$(pgrep -P "$launched" mergel | head -1)
 rm a/checkpoint_*.h5
 kill -USR1 "$first"
-wait_for "a/checkpoint_*.h5"
+wait_for exists "a/checkpoint_*.h5"
 kill -TERM "$first"
 code=0; wait $launched || code=$?
 [ "$code" -eq 2 ] || fail "SIGTERM on three ranks: exit code $code: $(tail -3 log)"
-grep -q '(driving), checkpoint a/' log || fail "not driven: $(tail -3 log)"
+grep -q '(penetration), checkpoint a/' log || fail "not in the penetration: $(tail -3 log)"
 "$mergel" info a >info || fail "info: $(cat info)"
-grep -q 'not finished' info && grep -q 'driving, step .* good' info || fail "info: $(cat info)"
+grep -q 'not finished' info && grep -q 'penetration, step .* good' info || fail "info: $(cat info)"
 pile --restart a >log || fail "the end on one rank: $(tail -3 log)"
 same a
 
@@ -75,9 +56,9 @@ same c
 [ "$(checkpoints b)" -gt 0 ] || fail "a restart into another folder changed the first"
 
 # A full disk, as a file-size limit: no file can be written, then none as large as a checkpoint. The
-# limit is that of the ranks; their own shared memory is kept out of its way.
+# limit holds for the ranks, but not for their shared memory.
 limited() { # blocks of 1024 bytes
-  PMIX_MCA_gds=hash OMPI_MCA_btl=self,tcp timeout 300 mpirun --oversubscribe -n 2 \
+  PMIX_MCA_gds=hash OMPI_MCA_btl=self,tcp on_ranks 2 \
     bash -c 'ulimit -f "$1"; shift; exec "$@"' limited "$1" "$mergel" pile "${@:2}"
 }
 for blocks in 8 150; do
@@ -90,8 +71,8 @@ for blocks in 8 150; do
   if [ "$blocks" -eq 150 ]; then
     grep -q 'checkpoint_.*cannot be written: File too large.*the last good checkpoint is d/checkpoint_' log ||
       fail "a full disk: $(cat log)"
-    [ "$(grep -c 'cannot be written' log)" -eq 1 ] || fail "a full disk is told more than once: $(cat log)"
-    grep -q HDF5-DIAG log && fail "HDF5 speaks: $(cat log)"
+    [ "$(grep -c 'cannot be written' log)" -eq 1 ] || fail "a full disk is reported more than once: $(cat log)"
+    grep -q HDF5-DIAG log && fail "HDF5 prints its errors: $(cat log)"
     cmp held.csv d/history.csv || fail "the history was touched"
     [ -z "$(find d -name '.*partial*')" ] || fail "left over: $(find d -name '.*partial*')"
   fi
@@ -100,28 +81,28 @@ done
 pile --restart d >log || fail "after a full disk: $(tail -3 log)"
 same d
 
-# A damaged newest checkpoint is told, and the older one taken.
+# A damaged newest checkpoint is reported, and the older one used.
 rm -rf e; cp -r b e
 older=$(basename "$(newest e)")
 head -c 20000 "e/$older" >e/checkpoint_999999999999.h5
 [ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q 'truncated' log || fail "info of a damaged one: $(cat log)"
 [ "$(code_of pile --restart e/checkpoint_999999999999.h5)" -eq 1 ] || fail "a damaged one: $(cat log)"
 grep -q "is no checkpoint, or is truncated; .*a good one is e/$older" log || fail "a damaged one: $(cat log)"
-# Cut by a run that went on: what the checkpoint does not know is dropped.
+# Lines of the history after the checkpoint are dropped, a cut one too.
 printf '1,2,3\n4,5' >>e/history.csv
-# A changed case is refused by its key, what concerns output may change.
+# A changed case is refused with the key; keys of the output may change.
 [ "$(code_of pile "$case_file" "${tiny[@]}" --restart e --set "Pile/friction=0.3")" -eq 1 ] || fail "a changed case"
 grep -q 'Pile/friction was 0.2, the case asks for 0.3' log || fail "a changed case: $(cat log)"
 pile --restart e --set "Output/frames=1" >log || fail "a changed number of frames: $(tail -3 log)"
-grep -q "cannot be used: e/checkpoint_999999999999.h5: is no checkpoint" log || fail "the damaged one is not told: $(cat log)"
-grep -q 'Output/frames was 2, is now 1' log || fail "the change is not told: $(cat log)"
+grep -q "cannot be used: e/checkpoint_999999999999.h5: is no checkpoint" log || fail "the damaged one is not reported: $(cat log)"
+grep -q 'Output/frames was 2, is now 1' log || fail "the change is not reported: $(cat log)"
 cmp whole/history.csv e/history.csv || fail "the history differs"
 [ "$(ls e/fields | wc -l)" -eq 8 ] || fail "frames: $(ls e/fields)"
 grep -q 'set aside: e/checkpoint_999999999999.h5.aside' log && [ -e e/checkpoint_999999999999.h5.aside ] ||
   fail "the damaged one was not kept: $(ls e)"
 
-# After an instability the same step would fail again: the factor of the time step may be lowered, and is
-# at once; it cannot be raised.
+# After an instability the same step would fail again: the factor of the time step may be lowered, with
+# effect at once; it cannot be raised.
 rm -rf e; cp -r b e
 [ "$(code_of pile --restart e --set "Motion/time step safety=0.9")" -eq 1 ] && grep -q 'time step safety.*was 0.7, and a restart can only lower it' log ||
   fail "a raised factor of the time step: $(cat log)"
@@ -129,19 +110,19 @@ pile --restart e --set "Motion/time step safety=0.35" >log || fail "a lowered fa
 dt() { awk -F': ' '/"time step \[s\]"/ { print $2 + 0 }' "$1/summary.json"; }
 awk -v a="$(dt whole)" -v b="$(dt e)" 'BEGIN { exit !(b > 0.45 * a && b < 0.55 * a) }' || fail "time step $(dt e), before $(dt whole)"
 
-# One that is not damaged is not gone behind: another user's, a newer program's, here a link to nowhere.
+# A newer checkpoint that is not damaged is not passed over: of another user, of a newer program, here a
+# link to nowhere.
 rm -rf e; cp -r b e
 ln -s /nowhere e/checkpoint_999999999999.h5
-[ "$(code_of pile --restart e)" -eq 1 ] || fail "went back behind a newer checkpoint: $(cat log)"
-grep -q "there is no such file. It may be whole.*take an older one with --restart e/$older" log || fail "an unreadable one: $(cat log)"
+[ "$(code_of pile --restart e)" -eq 1 ] || fail "a newer checkpoint was passed over: $(cat log)"
+grep -q "there is no such file. It may be complete.*choose an older one with --restart e/$older" log || fail "an unreadable one: $(cat log)"
 [ -L e/checkpoint_999999999999.h5 ] || fail "the unreadable one is gone"
 
-# What one rank cannot see ends the run on all of them, before anything is written.
+# A file that one rank cannot see ends the run on all of them, before anything is written.
 cp "$case_file" case.prm
 mkdir elsewhere
 blind() {
-  timeout 60 mpirun --oversubscribe -n 2 \
-    bash -c '[ "$OMPI_COMM_WORLD_RANK" = 0 ] || cd elsewhere; exec "$@"' blind "$mergel" pile "$@"
+  on_ranks 2 bash -c '[ "$OMPI_COMM_WORLD_RANK" = 0 ] || cd elsewhere; exec "$@"' blind "$mergel" pile "$@"
 }
 for arguments in "--restart b" "--restart b/$older" "case.prm"; do
   # shellcheck disable=SC2086
@@ -150,21 +131,21 @@ for arguments in "--restart b" "--restart b/$older" "case.prm"; do
   [ ! -e none ] || fail "$arguments, seen by one rank of two: something was written"
 done
 
-# Nor what they read differently: an edited case, another checkpoint under the same name.
+# The same for files that differ between the ranks: an edited case, another checkpoint of the same name.
 sed 's/set friction *= .*/set friction = 0.3/' case.prm >elsewhere/case.prm
 [ "$(code_of blind case.prm --output none)" -eq 1 ] || fail "two cases: $(cat log)"
 grep -q '^rank 1: Pile/friction is 0.3 here and 0.2 on the first rank' log || fail "two cases: $(cat log)"
 cp -r b elsewhere/b
 cp "$(newest a)" "elsewhere/b/$older"
 [ "$(code_of blind --restart b --output none)" -eq 1 ] || fail "two checkpoints: $(cat log)"
-grep -q '^rank 1: --restart b/.*holds something else here' log || fail "two checkpoints: $(cat log)"
+grep -q '^rank 1: --restart b/.*its content differs from that on the first rank' log || fail "two checkpoints: $(cat log)"
 [ ! -e none ] || fail "read differently: something was written"
-# A results folder of its own on a node is told before the first step, not at the first checkpoint.
-[ "$(code_of blind "$work/case.prm" "${tiny[@]}" --output none)" -eq 1 ] || fail "a folder of its own: $(cat log)"
-grep -q '^rank 1: output folder none: rank 1 on .* does not see the file that rank 0' log || fail "a folder of its own: $(cat log)"
+# A local results folder on a node is reported before the first step, not at the first checkpoint.
+[ "$(code_of blind "$work/case.prm" "${tiny[@]}" --output none)" -eq 1 ] || fail "a local folder: $(cat log)"
+grep -q '^rank 1: output folder none: rank 1 on .* does not see the file that rank 0' log || fail "a local folder: $(cat log)"
 rm -rf none elsewhere/*
 
-# One run at a time in a folder; a run that was killed is in nobody's way.
+# One run at a time in a folder; a killed run does not block it.
 rm -rf g; cp -r b g
 "$mergel" pile --restart g >log_of_first 2>&1 &
 first=$!
@@ -179,11 +160,13 @@ same g
 [ ! -e g/.mergel.lock ] || fail "the lock is left over"
 
 name=$(basename "$(newest b)")
-# A run that is just ending writes another checkpoint: the next one waits, then goes on from that.
+# A run that is just ending writes another checkpoint: the next run waits, then continues from it.
 rm -rf g; cp -r b g
 "$mergel" pile --restart g --set "Output/checkpoint every=10 steps" >log_of_first 2>&1 &
 first=$!
-for _ in $(seq 3000); do [ "$(basename "$(newest g)")" = "$name" ] || break; sleep 0.02; done
+launched=$first
+has_another() { [ "$(basename "$(newest g)")" != "$name" ]; }
+wait_for has_another
 kill -STOP $first
 before=$(newest g)
 "$mergel" pile --restart g --walltime "0.1 s" >log 2>&1 &
@@ -198,33 +181,33 @@ taken=$(grep -o 'checkpoint g/checkpoint_[0-9]*.h5' log_of_first | tail -1)
 grep -q "^restart from ${taken#checkpoint }: " log || fail "not from ${taken#checkpoint }: $(cat log)"
 grep -q 'set aside' log && fail "the newer checkpoint was set aside: $(cat log)"
 
-# Into another folder the checkpoint comes first: without it the next restart would begin again.
+# In another folder the checkpoint is written first: without it the next restart would start anew.
 mkdir -p h/resolved.prm
 [ "$(code_of pile --restart b --output h)" -eq 2 ] || fail "a folder in the way: $(cat log)"
-[ "$(checkpoints h)" -eq 1 ] || fail "the checkpoint came late: $(ls h)"
+[ "$(checkpoints h)" -eq 1 ] || fail "the checkpoint was not written first: $(ls h)"
 
-# Another folder can be restarted from the start: the checkpoint is brought along.
+# Another folder can be restarted at once: the checkpoint is copied to it.
 [ "$(code_of pile --restart b --output f --set "Output/checkpoint every=never" --walltime "0.1 s")" -eq 2 ] ||
   fail "another folder, ended at once: $(tail -3 log)"
-[ "$(checkpoints f)" -gt 0 ] || fail "no checkpoint came along: $(ls f)"
+[ "$(checkpoints f)" -gt 0 ] || fail "no checkpoint was copied: $(ls f)"
 pile --restart f >log || fail "the other folder: $(tail -3 log)"
 same f
 
-# What begins again takes no results away.
+# A run that starts anew removes no results.
 "$mergel" bond "$root/apps/cases/bond_fig4a_tension.prm" --output bond >log || fail "bond: $(cat log)"
 [ "$(code_of "$mergel" bond --restart bond)" -eq 1 ] && grep -q 'holds a finished run' log || fail "a finished bond: $(cat log)"
 [ "$(code_of "$mergel" bond "$root/apps/cases/bond_fig4a_tension.prm" --restart b)" -eq 1 ] && grep -q 'holds a run with checkpoints' log || fail "bond over a pile: $(cat log)"
 [ -e "b/$name" ] || fail "the checkpoint of b is gone"
 
-# A lost history is missed; what is no checkpoint is refused.
+# A lost history is reported; a file that is not a checkpoint is refused.
 rm -rf e; cp -r b e; rm e/history.csv
 [ "$(code_of pile --restart e)" -eq 1 ] && grep -q 'history.csv: is missing' log || fail "a lost history: $(cat log)"
 [ "$(code_of pile --restart sample.h5)" -eq 1 ] && grep -q 'sample.h5: is no checkpoint' log || fail "a sample: $(cat log)"
 long=$(printf 'x%.0s' {1..300})
 [ "$(code_of pile --restart "$long")" -eq 1 ] && grep -q 'File name too long' log || fail "a long name: $(cat log)"
 [ "$(code_of pile --restart nowhere)" -eq 1 ] && grep -q 'holds neither a checkpoint nor' log || fail "nowhere: $(cat log)"
-# mergel info: a folder of another, a failed run, a lost frame, what is set aside and who writes.
-[ "$(code_of "$mergel" info elsewhere)" -eq 1 ] && grep -q 'is no results folder' log || fail "info of another's folder: $(cat log)"
+# mergel info: another folder, a failed run, a lost frame, checkpoints set aside, and a run that writes.
+[ "$(code_of "$mergel" info elsewhere)" -eq 1 ] && grep -q 'is no results folder' log || fail "info of another folder: $(cat log)"
 rm -rf e; cp -r whole e
 "$mergel" info e >info || fail "info: $(cat info)"
 grep -q 'summary.json, good' info && grep -q 'results folder, finished' info || fail "info: $(cat info)"
@@ -240,10 +223,12 @@ rm -rf e; cp -r a e
 rm "$(ls e/fields/bonds_* | head -1)"
 [ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q 'bonds_0000.vtp: is missing' log || fail "info of a lost frame: $(cat log)"
 rm -rf e; cp -r b e; cp "e/$name" "e/$name.aside"
-flock e/.mergel.lock sleep 5 &
-sleep 0.5
+flock e/.mergel.lock bash -c 'touch held; until [ -e release ]; do sleep 0.05; done' &
+launched=$!
+wait_for exists held
 "$mergel" info e >info || fail "info: $(cat info)"
+touch release
 grep -q 'is writing there' info && grep -q 'set aside *1 checkpoints' info || fail "info: $(cat info)"
 wait
 "$mergel" info sample.h5 >info && grep -q 'porosity' info || fail "info of a sample: $(cat info)"
-echo "restart: all holds"
+echo "restart: all checks hold"

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# mergel-view of element tests: which pictures it makes of which runs, that options change them as
-# they say, and what it refuses before it makes any.
+# mergel-view of element tests: which pictures it makes of which runs, that each option changes
+# them, and what it refuses before it makes any.
 #
 # usage: tests/program/view_element.sh MERGEL_VIEW
 set -euo pipefail
 view=$(readlink -f "$1")
 if [ -z "${DISPLAY:-}" ]; then
   command -v xvfb-run >/dev/null || { echo "SKIPPED: neither a display nor xvfb-run"; exit 77; }
-  # without -noreset the server starts anew after each program, and may refuse the next
+  # without -noreset the server restarts after each program and may refuse the next one
   exec xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" "$0" "$view"
 fi
 work=$(mktemp -d)
@@ -15,12 +15,12 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 
 fail() { echo "FAILED: $*"; exit 1; }
-# FOLDER Q: 40 records of two legs, isotropic then with q up to Q times p
+# FOLDER Q: 40 records of two stages, isotropic then with q up to Q times p
 history() {
   mkdir -p "$1"
   awk -v Q="$2" 'BEGIN {
     OFS = ","
-    print "time [s],leg [-],axial strain [-],volumetric strain [-],axial strain of the leg [-],volumetric strain of the leg [-],p [Pa],q [Pa],void ratio [-]"
+    print "time [s],stage [-],axial strain [-],volumetric strain [-],axial strain of the stage [-],volumetric strain of the stage [-],p [Pa],q [Pa],void ratio [-]"
     for (k = 0; k < 40; ++k) {
       second = k >= 20; a = 1e-3 * k; v = 2e-3 * k
       if (second) { l = 1 - (1 - a) / (1 - 0.02); w = 1 - (1 - v) / (1 - 0.04) } else { l = a; w = v }
@@ -29,7 +29,7 @@ history() {
     }
   }' >"$1/history.csv"
 }
-# FOLDER: of a pile
+# FOLDER: history of a pile
 pile() {
   mkdir -p "$1"
   printf 'time [s],depth/D_p [-],q_c [Pa],bonds broken [-]\n0,0,0,0\n1e-3,1,2e6,30\n' >"$1/history.csv"
@@ -39,7 +39,7 @@ history sheared 1.2
 pile pile
 printf '# critical states\np [MPa],q [kPa]\n1,1200\n3,3500\n' >points.csv
 
-# PICTURE ARGUMENTS...: that one picture and no other
+# PICTURE ARGUMENTS...: makes this picture and no other
 makes() {
   local picture=$1
   shift
@@ -56,14 +56,14 @@ differs() {
 }
 makes isotropic.png iso
 makes element.png sheared
-makes element.png iso sheared # one that is sheared calls for q
+makes element.png iso sheared # one sheared run is enough for the panels of q
 makes element.png sheared
-differs element.png sheared --leg 2
-differs element.png sheared --leg 2 --points points.csv
-makes isotropic.png sheared --leg 1-1 # the leg before the shearing alone
+differs element.png sheared --stage 2
+differs element.png sheared --stage 2 --points points.csv
+makes isotropic.png sheared --stage 1-1 # only the stage before the shearing
 makes curve.png sheared --curve "axial strain:q/p"
 differs curve.png sheared --curve "axial strain:q/p [%]"
-differs curve.png sheared --curve "log p [kPa]:void ratio" --curve "time:leg"
+differs curve.png sheared --curve "log p [kPa]:void ratio" --curve "time:stage"
 makes curve.png pile pile --label a --label b --curve "depth/D_p:q_c"
 history one 1; for k in 2 3 4 5 6 7 8; do cp -r one run$k; done
 makes element.png one run{2,3,4,5,6,7,8}
@@ -78,9 +78,9 @@ refused() {
     fail "wanted \"$what\", exit 1: $code $(cat log)"
 }
 refused 'sheared holds an element run and pile a pile run' sheared pile
-refused '--leg 3-1: must be the number' sheared --leg 3-1
-refused 'no record of leg 3; the last is 2' sheared --leg 3
-refused '--leg 1: is for element runs' pile --leg 1
+refused '--stage 3-1: must be the number' sheared --stage 3-1
+refused 'no record of stage 3; the last is 2' sheared --stage 3
+refused '--stage 1: is for element runs' pile --stage 1
 refused '--frame 0: is for' sheared --frame 0
 refused '--label: given 1 times for 2' sheared iso --label a
 refused "no column 'Q'" sheared --curve "p:Q"
@@ -93,4 +93,4 @@ refused 'cannot be read' sheared --points nowhere.csv
 printf '1,2\n3,4\n' >bare.csv
 refused 'with their names above' sheared --points bare.csv
 
-echo "view_element: all holds"
+echo "view_element: all checks hold"

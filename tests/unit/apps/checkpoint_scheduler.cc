@@ -24,15 +24,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The steps at which a keeper of this cadence writes, of the first `n`.
-std::vector<std::uint64_t> steps_written(Keeper& keeper, const fs::path& folder,
-                                         std::uint64_t n)
+/// The steps, of the first `n`, at which this checkpoint scheduler writes.
+std::vector<std::uint64_t> steps_written(CheckpointScheduler& scheduler,
+                                         const fs::path& folder, std::uint64_t n)
 {
   std::vector<std::uint64_t> steps;
   for (std::uint64_t step = 1; step <= n; ++step) {
-    keeper.after_step(dem::Communicator(), {step, 1e-6, "driving"}, [](dem::State& state) {
-      state.add<double>("x", {1.0, 2.0});
-    });
+    scheduler.after_step(dem::Communicator(), {step, 1e-6, "driving"},
+                         [](dem::State& state) {
+                           state.add<double>("x", {1.0, 2.0});
+                         });
     if (fs::exists(folder / dem::checkpoint_name(step))) steps.push_back(step);
   }
   return steps;
@@ -60,14 +61,14 @@ TEST_CASE("A cadence is a time, a number of steps or never", "[unit][apps]")
     CHECK_THROWS_AS(to_cadence(wrong), InputError);
 }
 
-TEST_CASE("Checkpoints come at their steps, on SIGUSR1 at the next look, and two are kept",
+TEST_CASE("Checkpoints are written at their steps, or at the next check after SIGUSR1",
           "[unit][apps]")
 {
   const TemporaryFolder folder;
-  Keeper by_steps({.folder = folder.path,
-                   .job = "pile",
-                   .case_text = "",
-                   .every = to_cadence("7 steps")});
+  CheckpointScheduler by_steps({.folder = folder.path,
+                                .job = "pile",
+                                .case_text = "",
+                                .every = to_cadence("7 steps")});
   CHECK(steps_written(by_steps, folder.path, 30) ==
         std::vector<std::uint64_t>{7, 14, 21, 28});
   CHECK(dem::checkpoints_in(folder.path).size() == 2);
@@ -76,52 +77,55 @@ TEST_CASE("Checkpoints come at their steps, on SIGUSR1 at the next look, and two
 
   fs::remove_all(folder.path);
   fs::create_directories(folder.path);
-  Keeper on_signal({.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
+  CheckpointScheduler on_signal(
+      {.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
   CHECK(steps_written(on_signal, folder.path, 30).empty());
   std::raise(SIGUSR1);
   CHECK(steps_written(on_signal, folder.path, 30) == std::vector<std::uint64_t>{10});
 }
 
-TEST_CASE("SIGTERM and the end of the walltime stop a run behind a checkpoint",
+TEST_CASE("SIGTERM and the end of the walltime stop a run after a checkpoint",
           "[unit][apps]")
 {
   const TemporaryFolder folder;
-  Keeper keeper({.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
+  CheckpointScheduler scheduler(
+      {.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
   std::raise(SIGTERM);
-  CHECK_THROWS_WITH(steps_written(keeper, folder.path, 30),
+  CHECK_THROWS_WITH(steps_written(scheduler, folder.path, 30),
                     Contains("stopped by SIGTERM at step 10") &&
                         Contains("checkpoint_000000000010.h5") &&
                         Contains("mergel pile --restart " + folder.path.string()));
   CHECK(dem::read_checkpoint(folder.path / dem::checkpoint_name(10)).label.step == 10);
 
-  Keeper late(
+  CheckpointScheduler late(
       {.folder = folder.path, .job = "pile", .case_text = "", .every = {}, .end = 0.0});
   CHECK_THROWS_WITH(steps_written(late, folder.path, 30),
                     Contains("stopped before the end of --walltime at step 10"));
 }
 
-TEST_CASE(
-    "The first checkpoint before the end of the walltime gets the time of a slow disk",
-    "[unit][apps]")
+TEST_CASE("The first checkpoint before the end of the walltime assumes a slow disk",
+          "[unit][apps]")
 {
   const TemporaryFolder folder;
-  Keeper keeper({.folder = folder.path,
-                 .job = "pile",
-                 .case_text = "",
-                 .every = {},
-                 .end = dem::wall_clock() + 12.0});
-  const auto put_80_MB = [](dem::State& state) {
+  CheckpointScheduler scheduler({.folder = folder.path,
+                                 .job = "pile",
+                                 .case_text = "",
+                                 .every = {},
+                                 .end = 112.0,
+                                 .clock = [] { return 100.0; }});
+  const auto save_80_MB = [](dem::State& state) {
     state.add("x", std::vector<double>(10'000'000, 1.0));
   };
-  // 4 s at 20 MB/s, twice, and the margin of 2 s leave 2 s: no cause to stop yet.
-  keeper.after_step(dem::Communicator(), {10, 1e-6, "driving"}, put_80_MB);
-  CHECK(keeper.n_written() == 0);
-  Keeper late({.folder = folder.path,
-               .job = "pile",
-               .case_text = "",
-               .every = {},
-               .end = dem::wall_clock() + 9.0});
-  CHECK_THROWS_WITH(late.after_step(dem::Communicator(), {10, 1e-6, "driving"}, put_80_MB),
+  // Of 12 s, twice 4 s at 20 MB/s and the margin of 2 s leave 2 s: no stop yet.
+  scheduler.after_step(dem::Communicator(), {10, 1e-6, "driving"}, save_80_MB);
+  CHECK(scheduler.n_written() == 0);
+  CheckpointScheduler late({.folder = folder.path,
+                            .job = "pile",
+                            .case_text = "",
+                            .every = {},
+                            .end = 109.0,
+                            .clock = [] { return 100.0; }});
+  CHECK_THROWS_WITH(late.after_step(dem::Communicator(), {10, 1e-6, "driving"}, save_80_MB),
                     Contains("stopped before the end of --walltime at step 10"));
 }
 
@@ -129,16 +133,16 @@ TEST_CASE("A failure of a library or of memory names the last good checkpoint",
           "[unit][apps]")
 {
   const TemporaryFolder folder;
-  const Keeper keeper({.folder = folder.path,
-                       .job = "pile",
-                       .case_text = "",
-                       .every = {},
-                       .restarted_from = "earlier.h5"});
+  const CheckpointScheduler scheduler({.folder = folder.path,
+                                       .job = "pile",
+                                       .case_text = "",
+                                       .every = {},
+                                       .restarted_from = "earlier.h5"});
   const auto rethrown = [&](const auto& error) {
     try {
       throw error;
     } catch (...) {
-      keeper.rethrow_with_remedy();
+      scheduler.rethrow_with_remedy();
     }
   };
   CHECK_THROWS_WITH(rethrown(std::bad_alloc()),
@@ -152,22 +156,24 @@ TEST_CASE("A failure of a library or of memory names the last good checkpoint",
   CHECK_THROWS_AS(rethrown(std::out_of_range("at 7")), std::out_of_range);
 }
 
-TEST_CASE("What was found until a run went unstable is left, and its loss hides no failure",
-          "[unit][apps]")
+TEST_CASE(
+    "Results up to an instability are written, and if that fails both errors are named",
+    "[unit][apps]")
 {
   const TemporaryFolder folder;
-  const Keeper keeper({.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
-  const auto fail = [&](const auto& error, const auto& leave_figures) {
+  const CheckpointScheduler scheduler(
+      {.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
+  const auto fail = [&](const auto& error, const auto& write_results) {
     try {
       throw error;
     } catch (...) {
-      keeper.rethrow_with_remedy(leave_figures);
+      scheduler.rethrow_with_remedy(write_results);
     }
   };
   std::string left;
   const auto leave = [&](const std::string& failure) { left = failure; };
   CHECK_THROWS_AS(fail(NumericalError("a NaN"), leave), NumericalError);
-  CHECK(left.empty()); // other ranks know nothing of it
+  CHECK(left.empty()); // the error is of one rank only
   CHECK_THROWS_AS(fail(Unstable("too far"), leave), Remedied);
   CHECK(left == "too far");
   CHECK_THROWS_WITH(fail(Unstable("too far"),
@@ -179,18 +185,18 @@ TEST_CASE("What was found until a run went unstable is left, and its loss hides 
 TEST_CASE("A checkpoint that cannot be written names the last good one", "[unit][apps]")
 {
   const TemporaryFolder folder;
-  Keeper keeper({.folder = folder.path / "gone",
-                 .job = "pile",
-                 .case_text = "",
-                 .every = to_cadence("5 steps"),
-                 .restarted_from = "earlier.h5"});
+  CheckpointScheduler scheduler({.folder = folder.path / "gone",
+                                 .job = "pile",
+                                 .case_text = "",
+                                 .every = to_cadence("5 steps"),
+                                 .restarted_from = "earlier.h5"});
   CHECK_THROWS_WITH(
-      steps_written(keeper, folder.path, 5),
+      steps_written(scheduler, folder.path, 5),
       Contains("checkpoint_000000000005.h5: cannot be written: No such file") &&
           Contains("the last good checkpoint is earlier.h5"));
 }
 
-TEST_CASE("A history goes on where its mark is, and nowhere else", "[unit][apps]")
+TEST_CASE("A history continues at its mark and nowhere else", "[unit][apps]")
 {
   const TemporaryFolder folder;
   const fs::path file = folder.path / "history.csv";

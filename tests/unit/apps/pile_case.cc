@@ -1,5 +1,6 @@
 #include "apps/pile/pile_case.h"
 #include "apps/coupled/coupled_system.h"
+#include "tests/support/repository.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,9 +9,7 @@ using namespace mergel::apps;
 
 namespace {
 
-const std::filesystem::path cases =
-    std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() /
-    "apps/cases";
+const std::filesystem::path cases = mergel::test::repository() / "apps/cases";
 
 PileCase read_case(const char* name, const std::vector<std::string>& set = {})
 {
@@ -34,11 +33,11 @@ std::string refusal(const std::vector<std::string>& set)
 
 } // namespace
 
-TEST_CASE("both shipped cases hold the paper's rock, Table 1", "[unit][apps]")
+TEST_CASE("both cases of the pile have the paper's rock, Table 1", "[unit][apps]")
 {
   for (const char* name : {"pile_small.prm", "pile_paper.prm"}) {
     const PileCase c = read_case(name);
-    const auto& b = std::get<dem::DamageBond>(c.rock.material.bond);
+    const auto& b = std::get<dem::DamageBond>(c.assembly.material.bond);
     const double d00 = 0.066e-3;
     CHECK(b.E == 22.5e9);
     CHECK(b.kappa == 2.4);
@@ -48,41 +47,43 @@ TEST_CASE("both shipped cases hold the paper's rock, Table 1", "[unit][apps]")
     CHECK(b.u_c == Approx(0.061 * d00).epsilon(1e-12));
     CHECK(b.theta_c == 0.04);
     CHECK(b.flow == dem::BendingFlow::published);
-    CHECK(c.rock.material.contact.g_a == Approx(0.15 * d00).epsilon(1e-12));
-    CHECK(c.rock.specimen.g_b == Approx(0.4 * d00).epsilon(1e-12));
-    CHECK(c.rock.material.contact.E == 0.63e9);
-    CHECK(c.rock.material.contact.mu == 0.3);
+    CHECK(c.assembly.material.contact.g_a == Approx(0.15 * d00).epsilon(1e-12));
+    CHECK(c.assembly.specimen.g_b == Approx(0.4 * d00).epsilon(1e-12));
+    CHECK(c.assembly.material.contact.E == 0.63e9);
+    CHECK(c.assembly.material.contact.mu == 0.3);
   }
 }
 
-TEST_CASE("pile_paper is Table 4: sizes, 9 grains per diameter, 10,000 cells",
+TEST_CASE("pile_paper is Table 4: sizes, 9 particles per diameter, 195,000 particles",
           "[unit][apps]")
 {
   PileCase c = read_case("pile_paper.prm");
-  CHECK(c.rock.far_field.chamber_diameter == 50e-3);
-  CHECK(c.rock.far_field.chamber_height == 100e-3);
-  CHECK(c.rock.diameter == 20e-3);
-  CHECK(c.rock.height == 40e-3);
+  CHECK(c.assembly.far_field.chamber_diameter == 50e-3);
+  CHECK(c.assembly.far_field.chamber_height == 100e-3);
+  CHECK(c.assembly.diameter == 20e-3);
+  CHECK(c.assembly.height == 40e-3);
   CHECK(c.diameter == 1.4e-3);
   CHECK(c.final_depth == 6.0 * c.diameter);
   CHECK(c.velocity == 1.35);
-  // D_p/d50 = 9 where the pile goes: the mean diameter in number is 0.0999 mm at S = 1.
-  const double d50 = c.rock.specimen.sizes.diameter(0.5);
-  CHECK(c.diameter / (c.rock.specimen.scale.at(0.0) * d50) == Approx(9.0).epsilon(0.05));
-  // The number of grains follows from volume, porosity and S(r): 195,000 in the paper.
+  // D_p/d50 = 9 along the pile: the mean diameter by number is 0.0999 mm at S = 1.
+  const double d50 = c.assembly.specimen.sizes.diameter(0.5);
+  CHECK(c.diameter / (c.assembly.specimen.scale.at(0.0) * d50) ==
+        Approx(9.0).epsilon(0.05));
+  // The number of particles follows from volume, porosity and S(r): 195,000 in the paper.
   double n = 0.0;
   const double dr = 1e-6;
-  for (double r = 0.5 * dr; r < 0.5 * c.rock.diameter; r += dr)
-    n += dem::pi * r * dr * c.rock.height / std::pow(c.rock.specimen.scale.at(r), 3);
+  for (double r = 0.5 * dr; r < 0.5 * c.assembly.diameter; r += dr)
+    n +=
+        dem::pi * r * dr * c.assembly.height / std::pow(c.assembly.specimen.scale.at(r), 3);
   const double v_1 = dem::pi / 6.0 * std::pow(0.1035e-3, 3);
   CHECK(n * (1.0 - 0.52) / v_1 == Approx(195e3).epsilon(0.03));
 }
 
-TEST_CASE("keys that contradict each other name themselves and a remedy", "[unit][apps]")
+TEST_CASE("keys that contradict each other are named with a remedy", "[unit][apps]")
 {
   CHECK(refusal({"Pile/diameter=20 mm"}) ==
         "--set Pile/diameter = 20 mm: the pile is wider than the DEM region: must be below "
-        "`Specimen/diameter`, 10 mm; crushing reaches some two diameters from the axis");
+        "`Specimen/diameter`, 10 mm; bonds break up to some two diameters from the axis");
   CHECK(refusal({"Specimen/diameter=30 mm"})
             .find("--set Specimen/diameter = 30 mm: the DEM region does not fit the far "
                   "field") == 0);

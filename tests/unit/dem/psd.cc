@@ -1,6 +1,7 @@
 #include "dem/specimen/psd.h"
 #include "dem/error.h"
 #include "dem/io/psd_file.h"
+#include "tests/support/repository.h"
 
 #include <catch2/catch.hpp>
 
@@ -16,8 +17,7 @@ namespace {
 const UniformSizes paper{0.066e-3, 0.1337e-3};
 
 const std::filesystem::path shipped =
-    std::filesystem::path(__FILE__).parent_path().parent_path().parent_path() /
-    "meshes/psd/maastricht.csv";
+    mergel::test::repository() / "meshes/psd/maastricht.csv";
 
 std::vector<Grading> all_curves()
 {
@@ -27,7 +27,7 @@ std::vector<Grading> all_curves()
           Grading(SieveSizes{{0.05e-3, 0.1e-3, 0.15e-3, 0.2e-3}, {0.0, 0.3, 0.3, 1.0}})};
 }
 
-/// What read_sieve_curve says of this text.
+/// Error message of read_sieve_curve for this text; empty if it is accepted.
 std::string refusal(const std::string& text)
 {
   const auto file = std::filesystem::temp_directory_path() / "mergel_dem_psd.csv";
@@ -44,7 +44,7 @@ std::string refusal(const std::string& text)
 
 } // namespace
 
-TEST_CASE("Share by mass is share by number weighed with the cube of the diameter",
+TEST_CASE("Share by mass is share by number weighted with the cube of the diameter",
           "[unit][dem]")
 {
   for (const Grading& g : all_curves()) {
@@ -56,13 +56,13 @@ TEST_CASE("Share by mass is share by number weighed with the cube of the diamete
       whole += x;
       if ((k + 0.5) / n < 0.6) below += x;
     }
-    // Midpoints: measured 2e-7 to 5e-5, the most for the steep power law.
+    // Midpoint rule: measured 2e-7 to 5e-5, the largest for the steep power law.
     CHECK(g.passing(d) == Approx(below / whole).margin(1e-4));
     CHECK(g.mean_cube() == Approx(whole / n).epsilon(2e-3));
   }
 }
 
-TEST_CASE("Drawing inverts the share by number, and a sieve the share by mass",
+TEST_CASE("diameter() inverts the share by number, sieve() the share by mass",
           "[unit][dem]")
 {
   for (const Grading& g : all_curves()) {
@@ -77,10 +77,11 @@ TEST_CASE("Drawing inverts the share by number, and a sieve the share by mass",
   }
 }
 
-TEST_CASE("Grading uniform in number has the paper's mean volume", "[unit][dem]")
+TEST_CASE("A grading uniform by number has the paper's mean volume", "[unit][dem]")
 {
   const Grading g(paper);
-  CHECK(std::cbrt(g.mean_cube()) == Approx(0.1035e-3).epsilon(5e-4)); // design, section 7
+  // meshes/psd/README.md, maastricht.csv
+  CHECK(std::cbrt(g.mean_cube()) == Approx(0.1035e-3).epsilon(5e-4));
   const double g_a = 0.15 * 0.066e-3;
   double sum = 0.0;
   for (int k = 0; k < 1000; ++k) sum += std::pow(g.diameter((k + 0.5) / 1000) + g_a, 3);
@@ -89,7 +90,7 @@ TEST_CASE("Grading uniform in number has the paper's mean volume", "[unit][dem]"
 
 TEST_CASE("Fuller's curve passes as the root of the diameter", "[unit][dem]")
 {
-  const Grading g(PowerSizes{1e-9, 1.0, 0.5}); // next to no cut
+  const Grading g(PowerSizes{1e-9, 1.0, 0.5}); // the lower bound is near zero
   CHECK(g.passing(0.25) == Approx(0.5).epsilon(1e-4));
   CHECK(g.passing(0.01) == Approx(0.1).epsilon(1e-3));
 }
@@ -102,7 +103,7 @@ TEST_CASE("A log-normal curve far from its bounds has its median by mass", "[uni
   CHECK(g.diameter(0.5) == Approx(1e-4 * std::exp(-0.27)).epsilon(1e-9));
 }
 
-TEST_CASE("maastricht.csv is the curve uniform in number within 0.001", "[unit][dem]")
+TEST_CASE("maastricht.csv is the curve uniform by number within 0.001", "[unit][dem]")
 {
   const Grading table(read_sieve_curve(shipped)), wanted(paper);
   CHECK(table.smallest() == Approx(0.066e-3).epsilon(1e-12));
@@ -114,7 +115,7 @@ TEST_CASE("maastricht.csv is the curve uniform in number within 0.001", "[unit][
   CHECK(std::cbrt(table.mean_cube()) == Approx(0.1035e-3).epsilon(1e-3));
 }
 
-TEST_CASE("A sieve curve that is none is refused with its line", "[unit][dem]")
+TEST_CASE("An invalid sieve curve is refused with its line", "[unit][dem]")
 {
   const std::string head = "diameter [mm],passing [%]\n";
   CHECK(refusal(head + "0.1,0\n0.2,40\n0.3,100\n").empty());
@@ -131,7 +132,7 @@ TEST_CASE("A sieve curve that is none is refused with its line", "[unit][dem]")
              Contains("no column 'diameter [mm]'"));
 }
 
-TEST_CASE("A grading that makes no sense is refused", "[unit][dem]")
+TEST_CASE("Grading parameters out of range are refused", "[unit][dem]")
 {
   using mergel::InputError;
   CHECK_THROWS_AS(Grading(UniformSizes{2.0, 1.0}), InputError);

@@ -1,0 +1,102 @@
+# Sourced by the scripts that run mergel as its user does, with their arguments: the program is the first one.
+#
+# Sets root (the repository), mergel, work (a folder that is removed at the end, and the working folder), and
+# what Open MPI needs: containers run as root, and ranks that share a processor must not wait actively.
+#
+# No limit here is one of wall-clock time: a test may not depend on the speed of the machine, nor on what
+# else runs on it. See guarded().
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+mergel=$(readlink -f "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
+
+fail() { echo "FAILED: $*"; exit 1; }
+
+# Processor time of a process and all that it started [s].
+processor_time()
+{
+  ps -e -o pid=,ppid=,cputimes= | awk -v root="$1" '
+    { parent[$1] = $2; used[$1] = $3 }
+    END { for (p in used) { for (q = p; q > 1 && q != root; q = parent[q]); if (q == root) sum += used[p] }
+          print sum + 0 }'
+}
+
+# End a process that has used no processor time for five minutes: its ranks wait for each other. A process
+# that waits for a processor gets some of it in this time.
+end_when_stuck()
+{
+  local pid=$1 before=-1 now n_idle=0
+  while sleep 30 && kill -0 "$pid" 2>/dev/null; do
+    now=$(processor_time "$pid")
+    if [ "$now" = "$before" ]; then n_idle=$((n_idle + 1)); else n_idle=0; fi
+    before=$now
+    if [ "$n_idle" -ge 10 ]; then
+      pkill -KILL -P "$pid" || true
+      kill -KILL "$pid" 2>/dev/null || true
+    fi
+  done
+}
+
+# bounded COMMAND...: at most so many seconds of processor time: the runs here take a few. A build with
+# sanitizers asks for more (tests/CMakeLists.txt).
+bounded() { (ulimit -t "${MERGEL_TEST_SECONDS:-300}" && exec "$@"); }
+
+# guarded COMMAND...: the same, and ended when its processes wait for each other. Exit code 137 then.
+guarded()
+{
+  local code=0 pid watch
+  (ulimit -t "${MERGEL_TEST_SECONDS:-300}" && exec "$@") & # its own process, not the child of a shell
+  pid=$!
+  end_when_stuck $pid >/dev/null 2>&1 &
+  watch=$!
+  wait $pid || code=$?
+  kill $watch 2>/dev/null || true
+  wait $watch 2>/dev/null || true
+  return $code
+}
+
+# on_ranks N COMMAND...
+on_ranks()
+{
+  local n=$1
+  shift
+  guarded mpirun --oversubscribe -n "$n" "$@"
+}
+
+# launch COMMAND...: in the background; its process is $launched, for the signals of a test.
+launch()
+{
+  (ulimit -t "${MERGEL_TEST_SECONDS:-300}" && exec "$@") &
+  launched=$!
+}
+
+# wait_for CONDITION...: until it holds, as long as $launched runs.
+wait_for()
+{
+  until "$@"; do
+    kill -0 "$launched" 2>/dev/null || { "$@" && return; fail "it ended before \"$*\": $(tail -3 log)"; }
+    sleep 0.02
+  done
+}
+exists() { compgen -G "$1" >/dev/null; } # a file of this pattern
+
+# The last rank that $launched, an mpirun, has started.
+last_rank() { pgrep -P "$launched" mergel | tail -1; }
+
+# code_of COMMAND...: its exit code; what it prints is in `log`.
+code_of()
+{
+  local code=0
+  "$@" >log 2>&1 || code=$?
+  echo "$code"
+}
+
+# A coupled pile of some hundred particles, until bonds break: seconds.
+case_file=$root/apps/cases/pile_small.prm
+tiny=(--set "Specimen/diameter=6 mm" --set "Specimen/height=6 mm" --set "Specimen/inner upscaling=5"
+  --set "Specimen/outer radius=3 mm" --set "Far field/chamber diameter=12 mm"
+  --set "Far field/chamber height=12 mm" --set "Motion/unbalanced-force tolerance=1e-2")
+shallow=(--set "Pile/cone angle=120 degree" --set "Pile/final depth=0.15 mm")
