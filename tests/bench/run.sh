@@ -4,7 +4,7 @@
 #
 # usage: tests/bench/run.sh MERGEL [TABLE.csv]
 #   MERGEL     the program
-#   TABLE.csv  gets every figure, a line a row; default bench.csv; may exist
+#   TABLE.csv  gets all numbers, one line per row; default bench.csv; may exist
 # Prints the rows in Markdown. The machine should have nothing else to do.
 set -euo pipefail
 [ $# -ge 1 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 1; }
@@ -27,7 +27,7 @@ awk -F, -v skip="$before" -v day="$(date +%F)" '
     printf "| %s | | %s%s | %d | %d | %.0f (%.0f-%.0f) | %.0f | %.0f | %.1f |\n", day, $1,
       (yields > 0 ? sprintf(", %.0f %% yielding", yields) : ""), $column["particles [-]"],
       $column["ranks [-]"], $column["time per particle-step [ns]"],
-      $column["time per particle-step least [ns]"], $column["time per particle-step most [ns]"],
+      $column["time per particle-step smallest [ns]"], $column["time per particle-step largest [ns]"],
       $column["time per pair-step [ns]"], $column["memory per particle [byte]"],
       $column["triad [GB/s]"]
   }' "$table"

@@ -1,12 +1,12 @@
-// Checkpoints as they are, and with a right sum over whatever HDF5 can hold; each is taken into
-// a rock, and what is taken goes on.
+// Checkpoints as bytes, and HDF5 files with a correct checksum and arbitrary contents. Each
+// is loaded into an assembly, which then runs a step.
 #include "tests/fuzz/reader.h"
 
 #include "dem/error.h"
 #include "dem/io/state/assembly_state.h"
 #include "dem/io/state/checkpoint.h"
 #include "tests/fuzz/crafted_checkpoint.h"
-#include "tests/support/rock_with_everything.h"
+#include "tests/support/assembly_with_everything.h"
 
 #include <cmath>
 
@@ -14,66 +14,68 @@ namespace mergel::fuzz {
 
 namespace {
 
-void check(const dem::Rock& rock)
+void check(const dem::Assembly& assembly)
 {
-  const std::size_t n = rock.particles.size();
+  const std::size_t n = assembly.particles.size();
   const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
-  for (const dem::Body& b : rock.particles.body)
+  for (const dem::ParticleState& b : assembly.particles.state)
     promise(b.x.allFinite() && b.v.allFinite() && is_positive(b.R) && is_positive(b.m) &&
                 is_positive(b.S),
-            "a grain that cannot be");
+            "a particle with impossible values");
   const auto check_pairs = [n](const std::vector<dem::Pair>& pairs) {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-      promise(pairs[k].i < pairs[k].j && pairs[k].j < n, "a pair without its two grains");
+      promise(pairs[k].i < pairs[k].j && pairs[k].j < n,
+              "a pair without its two particles");
       promise(k == 0 || pairs[k - 1] < pairs[k], "pairs out of order, or twice");
     }
   };
-  check_pairs(rock.bonds.pairs);
-  check_pairs(rock.contacts.pairs);
-  promise(rock.contacts.shear.size() == rock.contacts.pairs.size(),
+  check_pairs(assembly.bonds.pairs);
+  check_pairs(assembly.contacts.pairs);
+  promise(assembly.contacts.shear.size() == assembly.contacts.pairs.size(),
           "a contact without its shear");
-  for (const dem::Wall& wall : rock.walls)
+  for (const dem::Wall& wall : assembly.walls)
     for (const dem::WallBond& b : wall.bonds)
       promise(b.particle < n && b.anchor.triangle >= 0 &&
                   static_cast<std::size_t>(b.anchor.triangle) <
                       wall.topology.triangles.size(),
-              "a bond without its grain or triangle");
+              "a bond without its particle or triangle");
 }
 
-/// Numbers that are possible each and impossible together may stop the run, by an Error.
-void go_on(dem::Rock& rock)
+/// Numbers that are each possible but do not fit together may stop the run with an error.
+void go_on(dem::Assembly& assembly)
 {
   try {
-    dem::rebuild_lists(rock);
-    dem::test::step_with_everything(rock, 1e-6);
+    dem::rebuild_lists(assembly);
+    dem::test::step_with_everything(assembly, 1e-6);
   } catch (const InputError&) {
   } catch (const NumericalError&) {
   }
 }
 
-/// Whether the state is one of this rock. @throws BrokenPromise
-bool is_taken(dem::State state)
+/// Whether the state can be loaded into this assembly. @throws BrokenPromise
+bool is_loaded(dem::State state)
 {
-  static const dem::Rock whole = dem::test::rock_with_everything();
-  dem::Rock rock = whole;
+  static const dem::Assembly whole = dem::test::assembly_with_everything();
+  dem::Assembly assembly = whole;
   try {
-    dem::take(state, rock);
+    dem::load(state, assembly);
   } catch (const InputError&) {
     return false;
   }
-  check(rock);
-  go_on(rock);
+  check(assembly);
+  go_on(assembly);
   return true;
 }
 
 } // namespace
 
-/// A file of an older program may not fit the rock, and is a checkpoint all the same.
+/// A file of an older program may not fit the assembly; it is still accepted as a
+/// checkpoint.
 const Reader checkpoint_reader{
     "checkpoint", true, [](const std::string& bytes, const std::filesystem::path& file) {
       write_bytes(file, bytes);
       try {
-        is_taken(dem::read_checkpoint(file).state);
+        is_loaded(dem::read_checkpoint(file).state);
       } catch (const InputError&) {
         return false;
       }
@@ -85,7 +87,7 @@ const Reader crafted_checkpoint_reader{
     [](const std::string& bytes, const std::filesystem::path& file) {
       craft_checkpoint(file, bytes);
       try {
-        return is_taken(dem::read_checkpoint(file).state);
+        return is_loaded(dem::read_checkpoint(file).state);
       } catch (const InputError&) {
         return false;
       }

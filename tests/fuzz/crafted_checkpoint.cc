@@ -4,7 +4,7 @@
 #include "dem/io/state/assembly_state.h"
 #include "dem/io/state/checkpoint.h"
 #include "tests/fuzz/crafted_hdf5.h"
-#include "tests/support/rock_with_everything.h"
+#include "tests/support/assembly_with_everything.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -38,7 +38,7 @@ hid_t type_of(char)
   return H5T_NATIVE_CHAR;
 }
 
-/// Numbers as they are, but for sums beyond 2^53.
+/// Numbers are exact, except sums beyond 2^53.
 std::vector<CraftedArray> arrays_of(const dem::State& state)
 {
   std::vector<CraftedArray> arrays;
@@ -60,10 +60,10 @@ std::vector<CraftedArray> arrays_of(const dem::State& state)
 
 void write_good_checkpoint(const std::filesystem::path& file)
 {
-  dem::Rock rock = dem::test::rock_with_everything();
-  for (int k = 0; k < 100; ++k) dem::test::step_with_everything(rock, 1e-6);
+  dem::Assembly assembly = dem::test::assembly_with_everything();
+  for (int k = 0; k < 100; ++k) dem::test::step_with_everything(assembly, 1e-6);
   dem::State state(0);
-  dem::put(state, rock);
+  dem::save(state, assembly);
   dem::write_checkpoint(file, {"0.1.0", "pile", "driving", "set a = 1\n", 100, 1e-4},
                         std::move(state), dem::Communicator());
 }

@@ -1,4 +1,4 @@
-/// Checkpoints with a right sum and odd contents, and a good one.
+/// Checkpoints with a correct checksum and unusual contents, and a good one.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +6,12 @@
 
 namespace mergel::fuzz {
 
-/// Write the checkpoint of the rock of tests/support/rock_with_everything.h on its way.
+/// Writes a checkpoint of the assembly of tests/support/assembly_with_everything.h.
 void write_good_checkpoint(const std::filesystem::path& file);
 
-/// The same, with what the bytes choose (crafted_hdf5.h), sealed. The first byte tells the
-/// array to begin with, for there are many; 255 leaves all of them as they are.
+/// The same, changed as the bytes choose (crafted_hdf5.h), and sealed. The first byte
+/// selects the array to begin with, because there are many; 255 leaves all of them
+/// unchanged.
 void craft_checkpoint(const std::filesystem::path& file, const std::string& bytes);
 
 } // namespace mergel::fuzz

@@ -22,7 +22,7 @@ private:
   std::size_t at_ = 0;
 };
 
-/// A type of its own, to be closed. 0 gives the usual one.
+/// A new type, to be closed by the caller; 0 gives the usual one.
 hid_t type_of(std::size_t choice, hid_t usual)
 {
   switch (choice) {
@@ -192,7 +192,7 @@ void add_array(hid_t file, Choices& choose, const CraftedArray& array)
   H5Pclose(plist);
 }
 
-/// Fill an attribute of `n` values, if it can hold what the good one says.
+/// Fills an attribute of `n` values, if its type can hold the good value.
 void write(hid_t a, hid_t type, const CraftedAttribute& attribute, double number,
            std::size_t n)
 {

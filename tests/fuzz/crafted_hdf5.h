@@ -1,5 +1,5 @@
-/// HDF5 files that come close to a good one: its names, with shapes, types, layouts, links
-/// and values that it does not have.
+/// HDF5 files similar to a good one: the same names with other shapes, types, layouts,
+/// links and values.
 #pragma once
 
 #include <hdf5.h>
@@ -18,7 +18,7 @@ struct CraftedArray {
   std::vector<double> values;
 };
 
-/// How many bytes a good array takes of those that choose.
+/// Number of choosing bytes that a good array uses.
 inline std::size_t n_choices(const CraftedArray& a)
 {
   return a.size.size() + 5;
@@ -32,8 +32,8 @@ struct CraftedAttribute {
   std::string text = {};
 };
 
-/// Write the file. The bytes choose, name by name, shape, type, layout, link and values;
-/// bytes that are missing count as 0, and all zeros make the good file.
+/// Writes the file. The bytes choose, name by name, shape, type, layout, link and values;
+/// missing bytes count as 0, and all zeros make the good file.
 void craft_hdf5(const std::filesystem::path& file, const std::vector<CraftedArray>& arrays,
                 const std::vector<CraftedAttribute>& attributes, const std::string& bytes);
 

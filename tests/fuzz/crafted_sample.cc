@@ -11,16 +11,16 @@ namespace mergel::fuzz {
 
 namespace {
 
-constexpr std::size_t n_grains = 3;
+constexpr std::size_t n_particles = 3;
 
 std::vector<CraftedArray> good_arrays()
 {
   const hid_t number = H5T_NATIVE_DOUBLE, text = H5T_NATIVE_CHAR;
   return {
-      {"x", number, {n_grains, 3}, {0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.2, 0.0, 0.0}},
-      {"R", number, {n_grains}, {0.05, 0.05, 0.05}},
-      {"m", number, {n_grains}, {1.0, 1.0, 1.0}},
-      {"S", number, {n_grains}, {1.0, 2.0, 3.0}},
+      {"x", number, {n_particles, 3}, {0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.2, 0.0, 0.0}},
+      {"R", number, {n_particles}, {0.05, 0.05, 0.05}},
+      {"m", number, {n_particles}, {1.0, 1.0, 1.0}},
+      {"S", number, {n_particles}, {1.0, 2.0, 3.0}},
       {"bonds", H5T_NATIVE_UINT32, {2, 2}, {0.0, 1.0, 1.0, 2.0}},
       {"recipe_keys", text, {2}, {'a', '\n'}},
       {"recipe_values", text, {2}, {'b', '\n'}},
@@ -38,7 +38,7 @@ std::vector<CraftedAttribute> good_attributes()
   return all;
 }
 
-/// What a sample ends in, after the data of HDF5.
+/// The end of a sample file, after the data of HDF5.
 std::string seal_of(const std::string& bytes)
 {
   std::uint64_t sum = 0xcbf29ce484222325u; // FNV-1a

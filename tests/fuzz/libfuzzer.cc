@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What the folders of the corpus held at the start: of sealed files nothing else may be
+/// Contents of the corpus folders at the start: of sealed files, these alone may be
 /// accepted.
 std::set<std::string>& given()
 {

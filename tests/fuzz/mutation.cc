@@ -63,7 +63,7 @@ void damage(std::string& bytes, const std::string& other, Draw& draw)
     if (!bytes.empty())
       bytes[draw.below(bytes.size())] = static_cast<char>(draw.below(256));
     break;
-  case 2: // a sign that means something somewhere
+  case 2: // a character with a meaning in some format
     bytes.insert(draw.below(bytes.size() + 1), 1, signs[draw.below(signs.size())]);
     break;
   case 3:

@@ -1,4 +1,4 @@
-/// What damages files: flipped bits, cuts, doubled and moved pieces, numbers out of range.
+/// Damages to files: flipped bits, cuts, doubled and moved pieces, numbers out of range.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace mergel::fuzz {
 
-/// Which mutation: file and number count from 0, and give the same damage anywhere.
+/// Which mutation: file and number count from 0, and give the same damage on any machine.
 struct MutationId {
   std::uint64_t file, number;
 };

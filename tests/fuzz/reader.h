@@ -1,4 +1,4 @@
-/// A reader of files that people and other programs write, as the fuzzers feed it.
+/// A reader of input files, as the fuzzers call it.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace mergel::fuzz {
 
-/// The reader accepted what it says it refuses.
+/// The reader accepted input that it must refuse.
 struct BrokenPromise : std::logic_error {
   using std::logic_error::logic_error;
 };
@@ -23,7 +23,7 @@ struct Reader {
   std::string_view name; ///< and folder of its corpus
   bool is_sealed; ///< the file ends in the sum of its bytes: no changed file is accepted
   /// Whether the bytes are accepted; false when InputError refuses them. `file` may be
-  /// written. Whatever else is thrown goes on.
+  /// written. Other exceptions propagate.
   bool (*accepts)(const std::string& bytes, const std::filesystem::path& file);
 };
 

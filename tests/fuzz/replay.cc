@@ -1,10 +1,11 @@
-// Feeds every reader its corpus and some thousand mutations of it, the same ones every time.
+// Gives every reader its corpus and some thousand mutations of it, the same ones every
+// time.
 //
 //   fuzz_replay CORPUS [MUTATIONS_PER_FILE]
 //   fuzz_replay --checkpoint FILE       write a good one, for a corpus
 //
-// Files good_* must be accepted, all others refused. A mutation may be accepted or refused, but by
-// InputError alone, and a sealed file must not be accepted once a byte of it has changed.
+// Files good_* must be accepted, all others refused. A mutation may be accepted, or refused
+// by an InputError; a sealed file must not be accepted once a byte of it has changed.
 #include "tests/fuzz/crafted_checkpoint.h"
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/reader.h"
@@ -40,7 +41,7 @@ std::vector<Entry> corpus(const fs::path& folder)
   return entries;
 }
 
-/// Counts what a reader did with what it was fed.
+/// Gives a reader its files and counts accepted, refused and failed ones.
 class Replay {
 public:
   Replay(const Reader& reader, const fs::path& corpus_folder, const fs::path& scratch)
@@ -110,7 +111,7 @@ private:
   std::size_t n_fed_ = 0, n_accepted_ = 0, n_failed_ = 0;
 };
 
-/// A folder of its own, in memory where there is one, gone at the end.
+/// A temporary folder, in memory if possible, removed at the end.
 struct Scratch {
   fs::path path;
   Scratch()
@@ -144,7 +145,7 @@ int main(int argc, char** argv)
         &checkpoint_reader, &crafted_checkpoint_reader}) {
     Replay replay(*reader, argv[1], scratch.path);
     replay.feed_corpus();
-    // A crafted file is made by HDF5 each time, which takes a hundred times as long.
+    // HDF5 makes each crafted file anew, which takes a hundred times as long.
     replay.feed_mutations(reader->name.starts_with("crafted_") ? n / 10 : n);
     is_good = replay.report() && is_good;
   }

@@ -1,4 +1,4 @@
-// Specimens on disk, as they are, and with a right sum over whatever HDF5 can hold.
+// Samples as bytes, and HDF5 files with a correct checksum and arbitrary contents.
 #include "tests/fuzz/reader.h"
 
 #include "dem/error.h"
@@ -13,14 +13,14 @@ namespace {
 
 void check(const dem::Sample& s)
 {
-  const auto& bodies = s.packing.particles.body;
+  const auto& particles = s.packing.particles.state;
   const auto is_positive = [](double x) { return std::isfinite(x) && x > 0.0; };
-  for (const dem::Body& b : bodies)
+  for (const dem::ParticleState& b : particles)
     promise(b.x.allFinite() && is_positive(b.R) && is_positive(b.m) && is_positive(b.S),
-            "a grain that cannot be");
+            "a particle with impossible values");
   for (std::size_t k = 0; k < s.bonding.pairs.size(); ++k) {
     const dem::Pair& q = s.bonding.pairs[k];
-    promise(q.i < q.j && q.j < bodies.size(), "a bond without its two grains");
+    promise(q.i < q.j && q.j < particles.size(), "a bond without its two particles");
     promise(k == 0 || s.bonding.pairs[k - 1] < q, "bonds out of order, or twice");
   }
 }

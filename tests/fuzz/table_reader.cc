@@ -1,4 +1,4 @@
-// Tables of numbers: history.csv of a run, and the path of a driven bond.
+// Tables of numbers: history.csv of a run, and the path of `mergel bond`.
 #include "tests/fuzz/reader.h"
 
 #include "dem/error.h"

@@ -1,11 +1,11 @@
-/// One grain of a rock does what it must not, and only its owner sees it: all ranks stop
-/// together, in its words.
+/// A fault of one particle that only its owner detects: all ranks stop together with the
+/// message of the owner.
 ///
-/// usage: mpi_faults FAULT; prints what was said
-///   drift     the grain flies off
-///   force     a bond of it has lost its history
-///   overlap   it lies in its neighbour
-///   nowhere   its place is no number
+/// usage: mpi_faults FAULT; prints the message
+///   drift     the particle moves too far in a step
+///   force     a bond of the particle has an invalid history
+///   overlap   the particle overlaps its neighbour
+///   nowhere   its position is not a number
 ///   input     the last rank alone refuses its input, and the others wait for it
 #include "apps/bench/workloads.h"
 #include "apps/run/run_guard.h"
@@ -25,47 +25,48 @@ namespace {
 constexpr Index culprit = 1234;
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A bonded box that is strained; the grain's neighbours are known.
-apps::WorkingRock make()
+/// A bonded periodic box under strain control, distributed over the ranks.
+apps::WorkingAssembly make()
 {
   apps::WorkloadSpec spec;
   spec.workload = apps::Workload::frictional_packing;
   spec.n_particles = 3000;
-  apps::WorkingRock w = apps::make_workload(spec);
-  w.rock.bonds = make_bonds(w.rock.particles, w.rock.cell, w.rock.contacts.pairs);
-  w.rock.contacts = {};
-  w.rock.list.invalidate();
-  w.rock.cell.is_driven = true;
-  share_out(w.rock, MPI_COMM_WORLD);
-  add_forces(w.rock, 0.0);
+  apps::WorkingAssembly w = apps::make_workload(spec);
+  w.assembly.bonds =
+      make_bonds(w.assembly.particles, w.assembly.cell, w.assembly.contacts.pairs);
+  w.assembly.contacts = {};
+  w.assembly.list.invalidate();
+  w.assembly.cell.is_strain_controlled = true;
+  distribute(w.assembly, MPI_COMM_WORLD);
+  add_forces(w.assembly, 0.0);
   return w;
 }
 
-void commit(const std::string& fault, Rock& rock)
+void commit(const std::string& fault, Assembly& assembly)
 {
-  Particles& p = rock.particles;
-  if (!p.owns(culprit)) return; // nobody else knows
-  Body& b = p.body[culprit];
+  Particles& p = assembly.particles;
+  if (!p.owns(culprit)) return; // the other ranks do not see the fault
+  ParticleState& b = p.state[culprit];
   if (fault == "drift")
     b.v.x() = 1e9;
   else if (fault == "nowhere")
     b.x.y() = no_number;
   else if (fault != "force" && fault != "overlap")
-    throw std::invalid_argument("no fault " + fault);
-  for (std::size_t k = 0; k < rock.bonds.size(); ++k) {
-    const Pair& q = rock.bonds.pairs[k];
+    throw std::invalid_argument("unknown fault " + fault);
+  for (std::size_t k = 0; k < assembly.bonds.size(); ++k) {
+    const Pair& q = assembly.bonds.pairs[k];
     if (q.i != culprit) continue;
-    if (fault == "force") rock.bonds.blocks[k / n_lanes].gap_0[k % n_lanes] = no_number;
-    if (fault == "overlap") b.x = p.body[q.j].x + rock.cell.offset(q.shift);
+    if (fault == "force") assembly.bonds.blocks[k / n_lanes].gap_0[k % n_lanes] = no_number;
+    if (fault == "overlap") b.x = p.state[q.j].x + assembly.cell.offset(q.shift);
     break;
   }
 }
 
-/// "" when nothing is found.
-std::string found(apps::WorkingRock& w)
+/// Message of the instability; empty if none is found.
+std::string found(apps::WorkingAssembly& w)
 {
   try {
-    check_overlaps(w.rock);
+    check_overlaps(w.assembly);
     for (int k = 0; k < 2; ++k) w.step();
   } catch (const Unstable& e) {
     return e.what();
@@ -73,7 +74,7 @@ std::string found(apps::WorkingRock& w)
   return "";
 }
 
-/// Whether all ranks say what the first one says.
+/// True if all ranks have the message of the first one.
 bool is_said_by_all(const std::string& words)
 {
   char first[512] = {};
@@ -84,7 +85,7 @@ bool is_said_by_all(const std::string& words)
   return alike != 0;
 }
 
-/// What only one rank refuses is no end in order.
+/// Input that one rank alone refuses: the run ends without waiting for the others.
 int refuse_alone()
 {
   int rank = 0, n_ranks = 1;
@@ -107,12 +108,12 @@ int main(int argc, char** argv)
   }
   int code = 0;
   try {
-    apps::WorkingRock w = make();
-    commit(argc > 1 ? argv[1] : "", w.rock);
+    apps::WorkingAssembly w = make();
+    commit(argc > 1 ? argv[1] : "", w.assembly);
     const std::string words = found(w);
     if (words.empty() || !is_said_by_all(words)) code = 1;
-    if (w.rock.comm.rank() == 0 || code != 0) std::printf("%s\n", words.c_str());
-  } catch (const std::exception& e) { // on one rank alone, or another kind
+    if (w.assembly.comm.rank() == 0 || code != 0) std::printf("%s\n", words.c_str());
+  } catch (const std::exception& e) { // on one rank alone, or of another kind
     std::fprintf(stderr, "mpi_faults: %s\n", e.what());
     MPI_Abort(MPI_COMM_WORLD, 1);
   }

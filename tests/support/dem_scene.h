@@ -1,4 +1,4 @@
-/// A handful of particles and their step, for the tests of the DEM core.
+/// A few particles and their time step, for the tests of dem/.
 #pragma once
 
 #include "dem/assembly/timestep.h"
@@ -33,7 +33,7 @@ inline DamageBond unbreakable_bond()
   return b;
 }
 
-/// Never active: its activation gap lies a metre inside the spheres.
+/// Never active: its activation gap lies a metre inside the particles.
 inline LinearMaterial no_contact()
 {
   LinearMaterial c;
@@ -52,9 +52,9 @@ inline LinearMaterial contact(double E, double kappa, double mu, double g_a)
   return c;
 }
 
-inline Body sphere(const Vec3& x, double R, double rho = 2556.0)
+inline ParticleState sphere(const Vec3& x, double R, double rho = 2556.0)
 {
-  Body b;
+  ParticleState b;
   b.x = x;
   b.R = R;
   b.m = sphere_mass(R, rho);
@@ -69,7 +69,7 @@ inline Vec3 random_vector(std::mt19937_64& random)
   return {x, y, z};
 }
 
-/// Free particles, their pairs and the step of the leapfrog.
+/// Free particles, their pairs and the leapfrog step.
 struct Scene {
   Particles p;
   PeriodicCell cell;
@@ -79,10 +79,10 @@ struct Scene {
   Motion motion;
   PairLosses losses;
   KickWork work;
-  /// What acts beside the pairs, with the step that ends now [s].
+  /// Adds loads other than those of pairs; its argument is the step that ends now [s].
   std::function<void(double)> add_more = [](double) {};
 
-  /// Spheres without friction, bonds, gravity or damping.
+  /// Particles without friction, bonds, gravity or damping.
   Scene()
   {
     material = {bond_of_table_1(), no_contact()};
@@ -93,13 +93,13 @@ struct Scene {
 
   void bond(std::vector<Pair> pairs) { bonds = make_bonds(p, cell, std::move(pairs)); }
 
-  void touch(std::vector<Pair> pairs)
+  void add_contacts(std::vector<Pair> pairs)
   {
     contacts.pairs = std::move(pairs);
     contacts.shear.assign(contacts.pairs.size(), ContactShear{});
   }
 
-  /// Forces at the present place, reached by the step dt.
+  /// Forces at the present positions, at the end of a step dt [s].
   void forces(double dt)
   {
     clear_loads(p);
@@ -108,7 +108,7 @@ struct Scene {
     add_more(dt);
   }
 
-  /// From velocities at t = 0 to velocities at dt/2 and places at dt.
+  /// From velocities at t = 0 to velocities at dt/2 and positions at dt.
   void start(double dt)
   {
     forces(0.0);
@@ -123,16 +123,16 @@ struct Scene {
     drift(p, dt);
   }
 
-  /// Move the first two particles by dx [m] and turn them by turn [rad] over the step dt;
-  /// returns the work of the motion against the loads, trapezoidal [J].
+  /// Moves the first two particles by `dx` [m] and rotates them by `turn` [rad] in a step
+  /// dt [s]; returns the work of the motion against the loads, trapezoidal [J].
   double move_pair(const std::array<Vec3, 2>& dx, const std::array<Vec3, 2>& turn,
                    double dt)
   {
     const std::vector<Load> before = p.load;
     for (std::size_t e = 0; e < 2; ++e) {
-      p.body[e].v = dx[e] / dt;
-      p.body[e].omega = turn[e] / dt;
-      p.body[e].x += dx[e];
+      p.state[e].v = dx[e] / dt;
+      p.state[e].omega = turn[e] / dt;
+      p.state[e].x += dx[e];
     }
     forces(dt);
     double work = 0.0;
@@ -151,14 +151,15 @@ struct Scene {
   Vec3 momentum() const
   {
     Vec3 sum = Vec3::Zero();
-    for (const Body& b : p.body) sum += b.m * b.v;
+    for (const ParticleState& b : p.state) sum += b.m * b.v;
     return sum;
   }
 
   Vec3 angular_momentum() const
   {
     Vec3 sum = Vec3::Zero();
-    for (const Body& b : p.body) sum += b.m * b.x.cross(b.v) + b.inertia() * b.omega;
+    for (const ParticleState& b : p.state)
+      sum += b.m * b.x.cross(b.v) + b.inertia() * b.omega;
     return sum;
   }
 };

@@ -1,4 +1,4 @@
-// Main of the test programs that link fem/: PETSc and deal.II must be started once.
+// Main of the test programs that link fem/: PETSc and deal.II must be initialised once.
 #define CATCH_CONFIG_RUNNER
 #include <catch2/catch.hpp>
 

@@ -1,11 +1,11 @@
-/// What the sanitizers do in a build with MERGEL_SANITIZE. It is linked into every program,
-/// so that tests, scripts and the ranks of mpirun need no environment; ASAN_OPTIONS,
-/// UBSAN_OPTIONS and LSAN_OPTIONS still go before.
+/// Options of the sanitizers in a build with MERGEL_SANITIZE. They are linked into every
+/// program, so that tests, scripts and the ranks of mpirun need no environment.
+/// ASAN_OPTIONS, UBSAN_OPTIONS and LSAN_OPTIONS still override them.
 
 extern "C" {
 
-// A finding ends the program with a code of its own: 1 and 2 are the program's words for
-// bad input and for a run that failed, and tests expect them.
+// A finding ends the program with another exit code than those of the program: 1 is bad
+// input, 2 a failed run, and tests expect them.
 const char* __asan_default_options()
 {
   return "exitcode=99";
@@ -21,8 +21,8 @@ const char* __lsan_default_options()
   return "exitcode=99:print_suppressions=0";
 }
 
-// Open MPI 4.1 leaves 120 kB behind on every rank. What libc formats for it has no caller
-// on the stack, because libc is built without frame pointers.
+// Open MPI 4.1 leaks 120 kB on every rank. Text that libc formats for it has no caller on
+// the stack, because libc is built without frame pointers.
 const char* __lsan_default_suppressions()
 {
   return "leak:libmpi.so\n"

@@ -1,4 +1,4 @@
-/// A small case with a key of each kind, read from files in a folder of the test's own.
+/// A small case with a key of each kind, read from files in a temporary folder.
 #pragma once
 
 #include "apps/case/case_file.h"
@@ -18,8 +18,8 @@
 
 namespace mergel::apps::test {
 
-/// A folder for one test, the working folder while it lives, so that messages name
-/// "pile.prm" alone.
+/// A temporary folder for one test. It is the working folder meanwhile, so that messages
+/// name "pile.prm" alone.
 class WorkingFolder {
 public:
   WorkingFolder() : before_(std::filesystem::current_path())

@@ -7,7 +7,7 @@
 #include <string>
 #include <system_error>
 
-/// A folder of its own, removed with all that is in it at the end.
+/// A new folder, removed with its contents at the end.
 class TemporaryFolder {
 public:
   TemporaryFolder()
@@ -15,7 +15,7 @@ public:
     std::string name =
         (std::filesystem::temp_directory_path() / "mergel_test_XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
-      throw std::runtime_error("no folder for the test");
+      throw std::runtime_error("cannot make a folder for the test");
     path = name;
   }
   ~TemporaryFolder()

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Section 2 of the paper in numbers: its element tests, run and tabled for tests/validation/README.md.
+# Section 2 of the paper in numbers: its element tests and their tables for tests/validation/README.md.
 #
 # usage: tests/validation/laboratory.sh MERGEL FOLDER [STUDY...]
 #   FOLDER  takes specimens, runs and a table STUDY.csv of each study; what is there is not run again
@@ -16,7 +16,7 @@ shift 2
 read -ra seeds <<<"${SEEDS:-1 2 3}"
 read -ra flows <<<"${FLOWS:-published conjugate}"
 
-# Runs go on a list, a line each, and are done JOBS at a time; specimens first, for runs share them.
+# Runs are collected in a list, one line each, and run JOBS at a time; specimens first, because runs share them.
 list=$(mktemp)
 trap 'rm -f "$list"' EXIT
 export cases mergel
@@ -27,20 +27,20 @@ specimen() {
   echo "${3:-}" >"$1.keys"
   [ -s "$1/sample.h5" ] || echo "sample$tab$1$tab$2$tab$tab$tab${3:-}" >>"$list"
 }
-# run NAME CASE SPECIMEN "leg; leg" "Key=value; Key=value"
+# run NAME CASE SPECIMEN "stage; stage" "Key=value; Key=value"
 run() { [ -s "$1/summary.json" ] || echo "element$tab$1$tab$2$tab$3$tab$4$tab$(cat "$3.keys"); ${5:-}" >>"$list"; }
 work() {
-  local job name case specimen legs keys part k=0 settings=()
-  IFS='|' read -r job name case specimen legs keys <<<"${1//$'\t'/|}"
+  local job name case specimen stages keys part k=0 settings=()
+  IFS='|' read -r job name case specimen stages keys <<<"${1//$'\t'/|}"
   while IFS= read -r part; do [ -z "$part" ] || settings+=(--set "$part"); done <<<"${keys//; /$'\n'}"
   if [ "$job" = element ]; then
     settings+=(--set "Specimen/file=$specimen/sample.h5")
-    while IFS= read -r part; do settings+=(--set "Loading/leg $((++k))=$part"); done <<<"${legs//; /$'\n'}"
-    [ $k -gt 1 ] || settings+=(--set "Loading/leg 2=")
+    while IFS= read -r part; do settings+=(--set "Loading/stage $((++k))=$part"); done <<<"${stages//; /$'\n'}"
+    [ $k -gt 1 ] || settings+=(--set "Loading/stage 2=")
   fi
   mkdir -p "$(dirname "$name")"
   case=$cases/element_$case.prm
-  if [ "$job" = sample ]; then # knows no bond's strength and no leg
+  if [ "$job" = sample ]; then # knows no bond's strength and no stage
     sed '/^subsection \(Bond\|Loading\)/,/^end/d' "$case" >"$name.prm"
     case=$name.prm
   fi
@@ -50,7 +50,7 @@ work() {
       echo "$name: $(tail -1 "$name.log")"
       return 1
     }
-  if [ "$job" = element ] && ! grep -q '"outcome": "goal reached"\|pulled apart' "$name/summary.json"; then
+  if [ "$job" = element ] && ! grep -q '"outcome": "target reached"\|pulled apart' "$name/summary.json"; then
     echo "$name ended early: $(grep -m 1 '"outcome"' "$name/summary.json")"
   fi
 }
@@ -59,7 +59,7 @@ all_done() {
   sort -u "$list" | tr '\n' '\0' | xargs -0 -r -n 1 -P "${JOBS:-2}" bash -c 'work "$1"' work
   : >"$list"
 }
-# value NAME QUANTITY [NTH]: a value of a summary, of the NTH leg that has it; "nan" if none has
+# value NAME QUANTITY [NTH]: a value of a summary, of the NTH stage that has it; "nan" if none has
 value() {
   awk -F': ' -v name="\"$2 [" -v nth="${3:-1}" 'index($1, name) && ++n == nth { v = $2 + 0; found = 1 }
     END { print found ? v : "nan" }' "$1/summary.json"
@@ -81,7 +81,7 @@ upscaled() { echo "Specimen/upscaling ratio=$1; $(cube "$2"); Specimen/seed=$3";
 row() { local IFS=,; echo "$*" >>"$table"; }
 header() { table=$1.csv; shift; rm -f "$table"; row "$@"; }
 
-# Design 12: E, UCS, tension, isotropic yield and return, softening at 1 MPa, hardening at 4, S.
+# The calibrated rock: E, UCS, tension, isotropic yield and return, softening at 1 MPa, hardening at 4 MPa, S.
 bands() {
   local s f S p
   for s in "${seeds[@]}"; do
@@ -124,7 +124,7 @@ bands() {
     done
   done
 }
-# Where p falls after its first peak by 2 %, how far: the least p before it is as high again
+# Smallest p after a fall by 2 % from its first peak, before p reaches that peak again
 dip() {
   awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
     { p = $at["p [Pa]"] }
@@ -133,7 +133,7 @@ dip() {
     p < 0.98 * top { falls = 1; if (!low || p < low) low = p }
     END { print low ? low : "nan" }' "$1/history.csv"
 }
-# p of a rock near 25 MPa over p of the unbonded one at the same void ratio
+# p of the bonded rock near 25 MPa over p of the unbonded one at the same void ratio
 over_unbonded() {
   local e p
   e=$(at "$2" "void ratio [-]" "p [Pa]" 24.9e6)
@@ -156,14 +156,14 @@ fig14() {
 
 # Triaxial tests from 0 to 6 MPa: yield points, stress ratio, critical state line, volume.
 fig15() {
-  local f p legs
+  local f p stages
   specimen rock_1 rock "Specimen/seed=1"
   all_done
   for f in "${flows[@]}"; do
     for p in 0 0.25 0.5 1 1.5 2.5 4 6; do
-      legs="isotropic to p = $p MPa; triaxial to axial strain = 20 %"
-      [ $p != 0 ] || legs="triaxial at 0 MPa to axial strain = 20 %"
-      run "fig15/${f}_$p" rock rock_1 "$legs" "$(flow "$f")"
+      stages="isotropic to p = $p MPa; triaxial to axial strain = 20 %"
+      [ $p != 0 ] || stages="triaxial at 0 MPa to axial strain = 20 %"
+      run "fig15/${f}_$p" rock rock_1 "$stages" "$(flow "$f")"
     done
   done
   all_done
@@ -253,7 +253,7 @@ fig10() {
 }
 
 # Size effect, Table 5: UCS against the width with the strengths of Eq. 18, three packings a width. The
-# paper's two largest specimens (363,672 and 255,417 grains) are replaced by other ratios S of their width.
+# paper's two largest specimens (363,672 and 255,417 particles) are replaced by other ratios S of their width.
 fig11() {
   local widths=("10 4" "30 12" "50 20" "80 20" "80 32" "120 48" "160 48" "160 64") f w s
   for w in "${widths[@]}"; do
@@ -274,7 +274,7 @@ fig11() {
     done
   done
   all_done
-  header fig11 flow "B [mm]" S seed grains "UCS [Pa]" "E [Pa]"
+  header fig11 flow "B [mm]" S seed particles "UCS [Pa]" "E [Pa]"
   for f in "${flows[@]}"; do
     for w in "${widths[@]}"; do
       set -- $w
@@ -313,7 +313,7 @@ fig7() {
         for path in "${paths[@]}"; do
           name=fig7/${k}_${f}_$1_$path
           p=$(value "$name" "p at yield")
-          # A rock that swells before it yields has no offset in volumetric strain: its first peak.
+          # A specimen that dilates before it yields has no offset in volumetric strain: its first peak.
           [ "$p" != nan ] || p=$(value "$name" "first peak before a collapse")
           row $k "$f" "$1" "$path" "$p" "$(at "$name" "q [Pa]" "p [Pa]" "$p")"
         done

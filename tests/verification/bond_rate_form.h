@@ -2,13 +2,12 @@
 /// nothing with the return mapping of the law but Eqs. 2-7 of the paper.
 ///
 ///   dq = k (du - Lambda dg/dq)          effective loads q = (N, V, M), elastic stiffness k
-///   Lambda from f(q + dq) = 0           linearised at q: forward Euler with its drift
-///                                       taken out in the next step
+///   Lambda from f(q + dq) = 0           linearised at q: forward Euler, its drift
+///                                       removed in the next step
 ///   ds = |du_n^p|/u_c + |du_s^p|/u_c + |dtheta^p|/theta_c,   du^p = du - dq/k
 ///   loads (1 - D) q,  D = 1 - exp(-s)
 ///
-/// On the edge m = 0 the flow in M is whatever keeps M at zero, and f is the ellipse
-/// n^2 + v^2 = 1.
+/// On the edge m = 0 the flow in M keeps M at zero, and f is the ellipse n^2 + v^2 = 1.
 #pragma once
 
 #include "tests/support/dem_scene.h"
@@ -17,7 +16,7 @@ namespace mergel::dem::test {
 
 using Vec2 = Eigen::Vector2d;
 
-/// Motion of one bond, or its growth; shear and bending in the plane of the bond.
+/// Motion of one bond, or an increment of it; shear and bending in the plane of the bond.
 struct BondMotion {
   double u_n = 0.0;          ///< [m]
   Vec2 u_s = Vec2::Zero();   ///< [m]
@@ -49,7 +48,7 @@ inline double worst(const std::vector<BondPoint>& a, const std::vector<BondPoint
   return d;
 }
 
-/// One bond of the paper's Table 1 (R = 30 mm), with the softening that a test wants.
+/// One bond of the paper's Table 1 (R = 30 mm) with the given softening.
 struct OneBond {
   DamageBond law = bond_of_table_1();
   BondShape<double> shape;
@@ -64,7 +63,7 @@ struct OneBond {
   }
   BondStrength strength(double N) const { return bond_strength(law, shape, N); }
 
-  /// Motion at which the strength is met when it acts alone, times n, v, m.
+  /// Motion that reaches each strength when it acts alone, times n, v, m.
   BondMotion motion(double n, const Vec2& v, const Vec2& m) const
   {
     const BondStrength q = strength(n);
@@ -72,7 +71,7 @@ struct OneBond {
   }
 };
 
-/// The law of the code, by its own steps.
+/// The law of dem/laws/bond.h, step by step.
 class LawPath {
 public:
   explicit LawPath(const OneBond& bond) : b_(bond) {}
@@ -192,14 +191,14 @@ private:
   double s_ = 0.0;
 };
 
-constexpr int n_checks = 20; ///< times on each leg at which states are compared
+constexpr int n_checks = 20; ///< times on each stage at which states are compared
 
-/// Add the states of `at` along one straight leg of motion `leg`, with n steps between two.
+/// Appends the states of `at` along one straight stage, with n steps between two of them.
 template <class Integrator>
-void follow_leg(Integrator& at, const BondMotion& leg, int n,
-                std::vector<BondPoint>& states)
+void follow_stage(Integrator& at, const BondMotion& stage, int n,
+                  std::vector<BondPoint>& states)
 {
-  const BondMotion du = (1.0 / (n_checks * n)) * leg;
+  const BondMotion du = (1.0 / (n_checks * n)) * stage;
   for (int step = 1; step <= n_checks * n; ++step) {
     at.step(du);
     if (step % n == 0) states.push_back(at.at());

@@ -4,11 +4,11 @@
 /// Source: Y.C. Chung and J.Y. Ooi, "Benchmark tests for verifying discrete element
 /// modelling codes at particle impact level", Granular Matter 13 (2011) 643-656.
 ///
-/// The figures of tests 1 to 4 are those of the scripts that ship with YADE, of 5, 7 and 8
-/// those of PySPH, not read from the article; test 6 takes solids, mu and spins of test 8.
+/// The numbers of tests 1 to 4 are from the scripts that come with YADE, those of 5, 7 and
+/// 8 from PySPH, not from the article; test 6 has the solids, mu and spins of test 8.
 ///
 /// Their contact is Hertz-Mindlin with a dashpot, ours a linear spring with friction alone.
-/// Materials, radii, speeds, spins and friction are theirs. What differs:
+/// Materials, radii, speeds, spins and friction are theirs. Differences:
 /// - k_n makes the linear impact last as long as Hertz's at the test's normal speed. The
 ///   peak force is then 0.854 of Hertz's: his is 5/4 m* v^2/delta, ours pi m* v/T with
 ///   T = 2.943 delta/v.
@@ -36,8 +36,8 @@ inline constexpr Solid glass{48e9, 0.20, 2800.0}, limestone{20e9, 0.25, 2500.0},
     steel{208e9, 0.30, 7850.0}, polyethylene{1e9, 0.40, 1400.0}, nylon{2.5e9, 0.40, 1000.0},
     copper{120e9, 0.35, 8900.0};
 
-/// A sphere and its motion in the plane of the impact: n from i to j, t normal to it, spin
-/// about n x t.
+/// A particle and its motion in the plane of the impact: n from i to j, t normal to it,
+/// spin about n x t.
 struct Ball {
   double R, rho;
   double v_n = 0.0, v_t = 0.0, spin = 0.0;
@@ -46,7 +46,7 @@ struct Ball {
   double inertia() const { return 0.4 * m() * R * R; }
 };
 
-/// Ball i meets ball j, or a rigid plane at rest.
+/// Particle i collides with particle j, or with a rigid plane at rest.
 struct Impact {
   Ball i;
   std::optional<Ball> j = std::nullopt;
@@ -55,7 +55,7 @@ struct Impact {
   double m_star() const { return j ? 1.0 / (1.0 / i.m() + 1.0 / j->m()) : i.m(); }
   double v_n() const { return i.v_n - (j ? j->v_n : 0.0); } ///< of approach
   double v_t() const { return i.v_t - (j ? j->v_t : 0.0); }
-  /// Velocity of i against j at the touching point.
+  /// Velocity of i relative to j at the contact point.
   double slip() const { return v_t() + i.R * i.spin + (j ? j->R * j->spin : 0.0); }
   double duration() const { return pi * std::sqrt(m_star() / k_n); }
   double peak_force() const { return v_n() * std::sqrt(m_star() * k_n); }
@@ -76,7 +76,7 @@ inline double mindlin_kappa(const Solid& s)
   return (2.0 - s.nu) / (2.0 * (1.0 - s.nu));
 }
 
-/// An impact with the stiffness of the solid: two balls of it, or one on a rigid plane.
+/// An impact with the stiffness of the solid: two particles, or one at a rigid plane.
 inline Impact impact_of(const Solid& s, double mu, const Ball& i,
                         const std::optional<Ball>& j = std::nullopt)
 {
@@ -90,8 +90,8 @@ inline Impact impact_of(const Solid& s, double mu, const Ball& i,
   return c;
 }
 
-/// Motion of i against j after the impact, along the first n and t, the spins, and the
-/// energy lost to friction [J].
+/// Motion of i relative to j after the impact, along the initial n and t, the spins, and
+/// the energy lost to friction [J].
 struct Rebound {
   double v_n, v_t, spin_i, spin_j, lost;
 };
@@ -108,10 +108,10 @@ inline double difference(const Impact& c, const Rebound& a, const Rebound& b)
          c.v_n();
 }
 
-/// Steps per duration, how many steps before the touch the run starts, and local damping.
+/// Steps per duration, steps from the start of the run to the first contact, local damping.
 ///
-/// A whole n lets the parting fall in its step as the touch did, and the leading error of
-/// the leapfrog cancels: measurements use an odd fraction.
+/// With a whole n the separation lies in its step where the first contact lay in its own,
+/// and the leading error of the leapfrog cancels: measurements use a fractional n.
 struct Resolution {
   double n = 200.37;
   double phase = 0.5;
@@ -123,7 +123,7 @@ struct Frame {
   Vec3 n, t;
   Vec3 z() const { return n.cross(t); }
 };
-inline Frame skew_frame()
+inline Frame oblique_frame()
 {
   return {Vec3(1, 2, 2) / 3.0, Vec3(2, 1, -2) / 3.0};
 }
@@ -133,8 +133,8 @@ inline Frame axis_frame()
   return {-Vec3::UnitZ(), Vec3::UnitX()};
 }
 
-/// Run the impact by the kernel until the two are apart again.
-/// @param watch(t, gap, f) at each step: time since the touch, gap, force on i
+/// Runs the impact with the kernel until the two have separated.
+/// @param watch(t, gap, f) at each step: time since the first contact, gap, force on i
 template <class Watch>
 Rebound run(const Impact& c, const Frame& frame, const Resolution& how, Watch&& watch)
 {
@@ -143,9 +143,9 @@ Rebound run(const Impact& c, const Frame& frame, const Resolution& how, Watch&& 
   s.motion.free_rotation = true;
   s.motion.damping = how.damping;
   const auto add = [&](const Ball& b, double x_n) {
-    Body& body = s.p.body[s.p.add(sphere(x_n * frame.n, b.R, b.rho))];
-    body.v = b.v_n * frame.n + b.v_t * frame.t;
-    body.omega = b.spin * frame.z();
+    ParticleState& particle = s.p.state[s.p.add(sphere(x_n * frame.n, b.R, b.rho))];
+    particle.v = b.v_n * frame.n + b.v_t * frame.t;
+    particle.omega = b.spin * frame.z();
   };
   add(c.i, -c.i.R - gap_0);
   const Plane plane{Vec3::Zero(), -frame.n};
@@ -154,36 +154,37 @@ Rebound run(const Impact& c, const Frame& frame, const Resolution& how, Watch&& 
     add(*c.j, c.j->R);
     const double r = std::min(c.i.R, c.j->R), L = c.i.R + c.j->R;
     s.material.contact = contact(c.k_n * L / (pi * r * r), c.kappa, c.mu, 0.0);
-    s.touch({{0, 1}});
+    s.add_contacts({{0, 1}});
   } else {
     at_plane.rebuild(s.p, 0.0, c.i.R, Vec3::Zero(),
-                     [&](const Body& b) { return plane.touch(b).gap; });
+                     [&](const ParticleState& b) { return plane.contact_geometry(b).gap; });
     s.add_more = [&](double step) {
       add_plane_forces(contact(c.k_n / (pi * c.i.R), c.kappa, c.mu, 0.0), plane, step, s.p,
                        at_plane, s.losses);
     };
   }
-  const Body& i = s.p.body[0];
+  const ParticleState& i = s.p.state[0];
   const auto gap = [&] {
-    return c.j ? (s.p.body[1].x - i.x).norm() - c.i.R - c.j->R : plane.touch(i).gap;
+    return c.j ? (s.p.state[1].x - i.x).norm() - c.i.R - c.j->R
+               : plane.contact_geometry(i).gap;
   };
-  bool has_met = false;
+  bool has_touched = false;
   for (int k = 0; k < 100 * how.n; ++k) { // a damped rebound takes long, but ends
     s.forces(dt);
     watch((k - how.phase) * dt, gap(), s.p.load[0].f);
-    if (gap() < 0.0) has_met = true;
-    if (has_met && gap() > 0.0) break;
+    if (gap() < 0.0) has_touched = true;
+    if (has_touched && gap() > 0.0) break;
     kick(s.p, s.motion, dt, s.work);
     drift(s.p, dt);
   }
-  const Vec3 v = c.j ? Vec3(i.v - s.p.body[1].v) : i.v;
+  const Vec3 v = c.j ? Vec3(i.v - s.p.state[1].v) : i.v;
   return {v.dot(frame.n), v.dot(frame.t), i.omega.dot(frame.z()),
-          c.j ? s.p.body[1].omega.dot(frame.z()) : 0.0, s.losses.slip.value()};
+          c.j ? s.p.state[1].omega.dot(frame.z()) : 0.0, s.losses.slip.value()};
 }
 
 inline Rebound run(const Impact& c, const Resolution& how = {})
 {
-  return run(c, skew_frame(), how, [](double, double, const Vec3&) {});
+  return run(c, oblique_frame(), how, [](double, double, const Vec3&) {});
 }
 
 /// The same impact as an ordinary differential equation, written without the kernel.
@@ -191,10 +192,10 @@ inline Rebound run(const Impact& c, const Resolution& how = {})
 ///   p' = -u,   u' = F/m*,   omega' = a f/I,   F = -f_n n + f t,   f_n = k_n delta
 ///   stick: f' = -k_s slip,   slide: f = +-mu f_n,   slip = u.t + a_i omega_i + a_j omega_j
 ///
-/// p from i to j, u of i against j, arms a that shrink with the overlap delta. Sticking
-/// ends at |f| = mu f_n; sliding ends when the spring would follow the falling limit,
-/// |slip| k_s = mu f_n' against f. Runge-Kutta of fourth order from event to event, each
-/// found by bisection.
+/// p from i to j, u of i relative to j, lever arms a, which shrink with the overlap delta.
+/// Sticking ends at |f| = mu f_n; sliding ends when the spring would follow the falling
+/// limit, |slip| k_s = mu f_n' against f. Runge-Kutta of fourth order from event to event,
+/// each found by bisection.
 class Reference {
 public:
   explicit Reference(const Impact& impact) : c(impact) {}
@@ -247,7 +248,7 @@ private:
     g.a_j = d - g.a_i;
     return g;
   }
-  double energy(const State& y) const // kinetic, less that of the common centre
+  double energy(const State& y) const // kinetic, less that of the centre of mass
   {
     return 0.5 * (c.m_star() * y.segment<2>(2).squaredNorm() + c.i.inertia() * y[4] * y[4] +
                   (c.j ? c.j->inertia() * y[5] * y[5] : 0.0));

@@ -1,4 +1,4 @@
-// Verification ladder 17: force, moment and power cross the interface to round-off.
+// coupling/README.md, 10. Interface balance: force, moment and power agree to round-off.
 #include "coupling/exchange.h"
 #include "coupling/interface_balance.h"
 #include "dem/assembly/energy_balance.h"
@@ -24,11 +24,12 @@ fem::FarFieldSpec small_far_field()
 
 const dem::LinearMaterial contact{0.63e9, 2.4, 0.3, 0.0};
 
-/// Grains pressed into the side and base of the region, some bonded to it, all in motion; no two touch.
-dem::Rock rock_at(const dem::Wall& wall)
+/// Particles pressed into the side and base of the region, some bonded to it, all in
+/// motion; no two touch.
+dem::Assembly assembly_at(const dem::Wall& wall)
 {
-  dem::Rock rock;
-  rock.material.contact = contact;
+  dem::Assembly assembly;
+  assembly.material.contact = contact;
   dem::DamageBond bond;
   bond.E = 22.5e9;
   bond.kappa = 2.4;
@@ -37,9 +38,9 @@ dem::Rock rock_at(const dem::Wall& wall)
   bond.C = 40.5e6;
   bond.u_c = 4e-6;
   bond.theta_c = 0.04;
-  rock.material.bond = bond;
-  rock.motion.damping = 0.0;
-  rock.list = dem::VerletList(0.0, 2e-5);
+  assembly.material.bond = bond;
+  assembly.motion.damping = 0.0;
+  assembly.list = dem::VerletList(0.0, 2e-5);
   const double R = 0.2e-3, overlap = 1e-6;
   std::uint64_t k = 0;
   for (std::size_t t = 0; t < wall.topology.triangles.size(); t += 3, ++k) {
@@ -47,25 +48,26 @@ dem::Rock rock_at(const dem::Wall& wall)
     const dem::Triangle& tri = wall.topology.triangles[t];
     Vec3 c = Vec3::Zero();
     for (const int n : tri) c += wall.x[static_cast<std::size_t>(n)] / 3.0;
-    if (c.z() > -R) continue; // not on the lip
-    dem::Body b;
+    if (c.z() > -R) continue; // not on the collar
+    dem::ParticleState b;
     b.R = R;
     b.m = dem::sphere_mass(R, 2556.0);
     b.x = c + (R - overlap) * wall.normals[t];
     b.v = Vec3(u(0) - 0.5, u(1) - 0.5, u(2) - 0.5);
     b.omega = 1e3 * Vec3(u(3) - 0.5, u(4) - 0.5, u(5) - 0.5);
-    rock.particles.add(b);
+    assembly.particles.add(b);
   }
-  rock.walls.push_back(wall);
-  dem::bond_to_wall(rock.walls.front(), rock.particles, 0.0); // those that overlap
-  rock.walls.front().bonds.resize(rock.walls.front().bonds.size() / 2); // the rest slides
-  return rock;
+  assembly.walls.push_back(wall);
+  dem::bond_to_wall(assembly.walls.front(), assembly.particles, 0.0); // those that overlap
+  assembly.walls.front().bonds.resize(assembly.walls.front().bonds.size() /
+                                      2); // the rest slides
+  return assembly;
 }
 
 Vec3 momentum(const dem::Particles& p)
 {
   Vec3 sum = Vec3::Zero();
-  for (const dem::Body& b : p.body) sum += b.m * b.v;
+  for (const dem::ParticleState& b : p.state) sum += b.m * b.v;
   return sum;
 }
 
@@ -77,16 +79,16 @@ TEST_CASE("interface force, moment and power balance to 1e-12", "[verification][
   coupling::Interface interface =
       coupling::make_interface(far_field.interface(), contact, 1e-3);
   const coupling::Nodal x_0 = far_field.interface().x;
-  dem::Rock rock = rock_at(interface.wall);
+  dem::Assembly assembly = assembly_at(interface.wall);
   coupling::Exchange exchange(interface.transfer, far_field);
-  dem::Wall& wall = rock.walls.front();
+  dem::Wall& wall = assembly.walls.front();
 
   const double dt = 2e-8;
-  dem::add_forces(rock, 0.0);
+  dem::add_forces(assembly, 0.0);
   coupling::InterfaceBalance worst;
   double work = 0.0;
   for (int n = 0; n < 200; ++n) {
-    dem::advance(rock, dt, dt, [&](double h) { exchange.step(wall, h); });
+    dem::advance(assembly, dt, dt, [&](double h) { exchange.step(wall, h); });
     coupling::Nodal x = x_0, u;
     far_field.interface_displacement(u);
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
@@ -97,44 +99,45 @@ TEST_CASE("interface force, moment and power balance to 1e-12", "[verification][
     for (std::size_t k = 0; k < wall.f.size(); ++k)
       work = std::max(work, wall.f[k].value().norm());
   }
-  REQUIRE(work > 0.01); // newtons did cross
+  REQUIRE(work > 0.01); // forces act on the interface [N]
   // Round-off of sums over 100 nodes, plus the quantum of the exact sums, 1e-15 N.
   CHECK(worst.force < 1e-12);
   CHECK(worst.moment < 1e-12);
   CHECK(worst.power < 1e-12);
 }
 
-TEST_CASE("what the wall takes from the grains is their loss of momentum and energy",
+TEST_CASE("the wall gets the momentum and energy that the particles lose",
           "[verification][coupling]")
 {
   fem::FarField far_field(small_far_field());
   coupling::Interface interface =
       coupling::make_interface(far_field.interface(), contact, 0.0);
-  dem::Rock rock = rock_at(interface.wall);
+  dem::Assembly assembly = assembly_at(interface.wall);
   coupling::Exchange exchange(interface.transfer, far_field);
-  dem::Wall& wall = rock.walls.front();
+  dem::Wall& wall = assembly.walls.front();
 
   const double dt = 1e-8;
-  dem::add_forces(rock, 0.0);
-  const Vec3 before = momentum(rock.particles);
+  dem::add_forces(assembly, 0.0);
+  const Vec3 before = momentum(assembly.particles);
   const auto net = [&] {
     const fem::Energies e = far_field.energies();
     return e.kinetic + e.strain - e.interface_work;
   };
-  const auto start = dem::energy_book(rock, dt);
+  const auto start = dem::energy_balance(assembly, dt);
   const double far_start = net();
   Vec3 impulse = Vec3::Zero();
   for (int n = 0; n < 2000; ++n) {
     for (const dem::VectorSum& f : wall.f) impulse += dt * f.value();
-    dem::advance(rock, dt, dt, [&](double h) { exchange.step(wall, h); });
+    dem::advance(assembly, dt, dt, [&](double h) { exchange.step(wall, h); });
   }
-  const auto end = dem::energy_book(rock, dt);
+  const auto end = dem::energy_balance(assembly, dt);
   const double scale = start.kinetic;
 
   // 2,000 steps of round-off, each 1e-16 of the momentum that moves.
-  CHECK((momentum(rock.particles) - before + impulse).norm() < 1e-12 * impulse.norm());
-  // What the grains lost is in the far field: the two books of the same work differ by the half step
-  // between them, and each closes on its own, second order in the step (measured 2e-5 in all).
+  CHECK((momentum(assembly.particles) - before + impulse).norm() < 1e-12 * impulse.norm());
+  // The far field has what the particles lost. The two energy balances count the same work
+  // half a step apart. Each holds on its own, to second order in the step (measured 2e-5 in
+  // total).
   CHECK(std::abs(dem::unexplained(end, start)) < 1e-3 * scale);
   CHECK(std::abs(net() - far_start) < 1e-9 * scale);
   const fem::Energies e = far_field.energies();
@@ -142,14 +145,14 @@ TEST_CASE("what the wall takes from the grains is their loss of momentum and ene
   CHECK(e.interface_work > 0.0);
 }
 
-TEST_CASE("the lip follows the surface nodes and holds the side's normals",
+TEST_CASE("the collar follows the surface nodes and keeps the normals of the side",
           "[verification][coupling]")
 {
   fem::FarField far_field(small_far_field());
   const auto& mesh = far_field.interface();
   const coupling::Interface with = coupling::make_interface(mesh, contact, 1e-3);
   CHECK(with.wall.x.size() > mesh.x.size());
-  CHECK(with.wall.topology.n_patches == 2); // side with its lip, and base
+  CHECK(with.wall.topology.n_patches == 2); // side with its collar, and base
   for (std::size_t t = mesh.triangles.size(); t < with.wall.topology.triangles.size();
        ++t) {
     const Vec3& corner =
@@ -169,40 +172,41 @@ TEST_CASE("rebuilding the lists at every step changes no bit, walls and mirror i
   const coupling::Interface interface =
       coupling::make_interface(far_field.interface(), contact, 1e-3);
   const auto run = [&](bool rebuild_always) {
-    dem::Rock rock = rock_at(interface.wall);
-    rock.motion.damping = 0.3;
-    // A second grain on top of each, and one at the cut: pairs, walls, mirror, pile.
-    const std::size_t n = rock.particles.size();
+    dem::Assembly assembly = assembly_at(interface.wall);
+    assembly.motion.damping = 0.3;
+    // A second particle on top of each, and one at the symmetry plane: pairs, walls,
+    // mirror, pile.
+    const std::size_t n = assembly.particles.size();
     for (std::size_t k = 0; k < n; k += 2) {
-      dem::Body b = rock.particles.body[k];
+      dem::ParticleState b = assembly.particles.state[k];
       b.x += (Vec3(0.0, 2.5e-3, -4e-3) - b.x).normalized() * 1.98 * b.R;
       b.v = -b.v;
-      rock.particles.add(b);
+      assembly.particles.add(b);
     }
-    dem::Body at_cut = rock.particles.body.front();
+    dem::ParticleState at_cut = assembly.particles.state.front();
     at_cut.x = {0.4e-3, at_cut.R * 0.999, -2e-3};
-    rock.particles.add(at_cut);
-    rock.mirrors.emplace_back();
+    assembly.particles.add(at_cut);
+    assembly.mirrors.emplace_back();
     dem::PileWall pile;
     pile.pile.R = 0.2e-3;
     pile.pile.cone_height = 0.3e-3;
     pile.pile.z_tip = -2.2e-3;
     pile.material = contact;
-    rock.piles.push_back(pile);
-    dem::add_forces(rock, 0.0);
+    assembly.piles.push_back(pile);
+    dem::add_forces(assembly, 0.0);
     for (int s = 0; s < 3000; ++s) {
-      if (rebuild_always) rock.list.invalidate();
-      dem::advance(rock, 2e-8, 2e-8, [](double) {});
+      if (rebuild_always) assembly.list.invalidate();
+      dem::advance(assembly, 2e-8, 2e-8, [](double) {});
     }
-    return rock;
+    return assembly;
   };
-  const dem::Rock once = run(false), always = run(true);
+  const dem::Assembly once = run(false), always = run(true);
   CHECK(always.list.n_builds() == 3001);
-  CHECK(once.list.n_builds() > 1); // it did go stale
+  CHECK(once.list.n_builds() > 1); // lists were rebuilt
   CHECK(once.list.n_builds() < 300);
   CHECK(once.losses.slip.value() > 0.0);
   for (std::size_t i = 0; i < once.particles.size(); ++i) {
-    CHECK(once.particles.body[i].x == always.particles.body[i].x);
-    CHECK(once.particles.body[i].omega == always.particles.body[i].omega);
+    CHECK(once.particles.state[i].x == always.particles.state[i].x);
+    CHECK(once.particles.state[i].omega == always.particles.state[i].omega);
   }
 }

@@ -1,4 +1,4 @@
-/// Energy of one bond through the force kernel: what its ends put in is stored or lost.
+/// Energy of one bond in the force kernel: the work of its ends is stored or lost.
 #include "tests/support/dem_scene.h"
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ struct EndMotion {
   Vec3 dx_i, dx_j, turn_i, turn_j; ///< [m], [rad]
 };
 
-/// A bonded pair along x, both of whose ends are moved; it books the work that this takes.
+/// A bonded pair along x whose ends are both moved, and the work of this motion.
 struct MovedPair {
   Scene s;
   double work = 0.0; ///< of the loads at both ends, trapezoid over each step [J]
@@ -33,23 +33,24 @@ struct MovedPair {
   {
     work += s.move_pair({m.dx_i, m.dx_j}, {m.turn_i, m.turn_j}, dt);
   }
-  /// Stretch by du; shear by turning both ends alike, which leaves the normal; bend by
-  /// turning them apart.
+  /// Stretches by du; shears by equal rotations of both ends, which keep the normal; bends
+  /// by opposite rotations.
   void strain(double du, double shear, double bend)
   {
     const Vec3 along(0.5 * du, 0, 0), z(0, 0, 1);
     const double alike = -shear / (2.0 * R + gap() + du);
     move({-along, along, (alike - 0.5 * bend) * z, (alike + 0.5 * bend) * z});
   }
-  double gap() const { return s.p.body[1].x.x() - s.p.body[0].x.x() - 2.0 * R; }
+  double gap() const { return s.p.state[1].x.x() - s.p.state[0].x.x() - 2.0 * R; }
   BondReading read() const { return read_bond(s.bonds, 0, s.p, s.cell, s.material.bond); }
   double lost() const
   {
-    return s.losses.plastic.value() + s.losses.residue.value() + s.losses.slip.value();
+    return s.losses.plastic.value() + s.losses.breakage_release.value() +
+           s.losses.slip.value();
   }
 };
 
-/// Motion at which each strength alone is met, and the strengths.
+/// Motion that reaches each strength alone, and the strengths.
 struct Yield {
   double u_t, u_c, u_s, theta;
   double N_t, N_c, V, M;
@@ -95,7 +96,7 @@ struct Balance {
   double lost, slip, unexplained, D;
 };
 
-/// Move and turn both ends at random through one period in n steps.
+/// Moves and rotates both ends at random through one period in n steps.
 Balance balance_of_cycle(const DamageBond& law, const LinearMaterial& beside, int seed,
                          int n)
 {
@@ -109,8 +110,8 @@ Balance balance_of_cycle(const DamageBond& law, const LinearMaterial& beside, in
       return Vec3(scale * (w.at((step + 1.0) / n) - w.at(1.0 * step / n)));
     };
     const Vec3 common =
-        moved(both, 0.05); // the pair turns as a whole too, by 0.1 rad or so
-    const Vec3 arm = 0.5 * (pair.s.p.body[1].x - pair.s.p.body[0].x);
+        moved(both, 0.05); // the pair also rotates as a whole, by some 0.1 rad
+    const Vec3 arm = 0.5 * (pair.s.p.state[1].x - pair.s.p.state[0].x);
     const Mat3 Q = Eigen::AngleAxisd(common.norm(), common.normalized()).toRotationMatrix();
     const Vec3 swing = Q * arm - arm;
     pair.move({moved(x_i, 0.5 * y.u_t) - swing, moved(x_j, 0.5 * y.u_t) + swing,
@@ -124,14 +125,14 @@ Balance balance_of_cycle(const DamageBond& law, const LinearMaterial& beside, in
 
 } // namespace
 
-TEST_CASE("Work in is stored or lost over random cycles, to the first order in the step",
+TEST_CASE("The work of random cycles is stored or lost, to first order in the step",
           "[verification][dem]")
 {
-  // Both ends move and turn, the pair turns as a whole, the bond yields and the contact
-  // beside it slides. The book's own trapezoid is of second order; the first order is that
-  // of pair_motion() where stretch, tilt and twist act in one step: arms and the plane of
-  // bending are taken at the end of the step, and what is new in V and M is not turned by
-  // half the twist.
+  // Both ends move and rotate, the pair rotates as a whole, the bond yields and the contact
+  // beside it slides. The trapezoid of the work is of second order. The error of first
+  // order is that of pair_motion() where stretch, rotation and twist act in one step: arms
+  // and the plane of bending are those at the end of the step, and the increments of V and
+  // M are not rotated by half the twist.
   const auto flow = GENERATE(BendingFlow::conjugate, BendingFlow::published);
   DamageBond law = bond_of_table_1();
   law.flow = flow;
@@ -167,7 +168,7 @@ TEST_CASE("No step of a tenth of the elastic range gains energy, and damage neve
   const Yield y(law);
   std::mt19937_64 random(17);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  double least = 0.0, total = 0.0;
+  double smallest = 0.0, total = 0.0;
   int n_reversals = 0;
   std::size_t n_yielded = 0, n_broken = 0;
   bool healed = false;
@@ -182,20 +183,20 @@ TEST_CASE("No step of a tenth of the elastic range gains energy, and damage neve
       const double lost = pair.lost(), D = pair.read().D;
       const double u_n = way.x() < 0.0 && pair.read().N < 0.0 ? y.u_c : y.u_t;
       pair.strain(0.1 * way.x() * u_n, 0.1 * way.y() * y.u_s, 0.1 * way.z() * y.theta);
-      least = std::min(least, pair.lost() - lost);
+      smallest = std::min(smallest, pair.lost() - lost);
       healed = healed || pair.read().D < D;
     }
     total += pair.lost();
     n_yielded += pair.s.losses.yielded;
     n_broken += pair.s.losses.broken;
   }
-  CAPTURE(static_cast<int>(flow), u_c, theta_c, least, total, n_reversals, n_yielded,
+  CAPTURE(static_cast<int>(flow), u_c, theta_c, smallest, total, n_reversals, n_yielded,
           n_broken);
   CHECK(n_yielded > 200);
   CHECK(n_broken > 0);
   CHECK(n_reversals > 200);
   CHECK_FALSE(healed);
-  CHECK(least >= -1e-14 * total); // round-off
+  CHECK(smallest >= -1e-14 * total); // round-off
 }
 
 TEST_CASE("The work under the load curve to full damage is strength (u_y/2 + u_c)",
@@ -245,7 +246,7 @@ TEST_CASE("The work under the load curve to full damage is strength (u_y/2 + u_c
       const double share = mode.strength * mode.tail / exact;
       const double e_1 = work(400) / exact - 1.0, e_2 = work(800) / exact - 1.0;
       CAPTURE(mode.name, at.u_c, at.theta_c, at.lambda_b, at.kappa, e_1, e_2);
-      // 1e-9 is cut off with the last of the load
+      // 1e-9 of the load is cut off at breakage
       CHECK(e_1 ==
             Approx(share * std::pow(21.0 / 400, 2) / 12.0).epsilon(0.01).margin(1e-8));
       CHECK(e_2 ==
@@ -254,7 +255,7 @@ TEST_CASE("The work under the load curve to full damage is strength (u_y/2 + u_c
   }
 }
 
-TEST_CASE("A bond damaged by combined loads goes back and forth along (1-D) k",
+TEST_CASE("A bond damaged by combined loads unloads and reloads along (1-D) k",
           "[verification][dem]")
 {
   const auto flow = GENERATE(BendingFlow::conjugate, BendingFlow::published);
@@ -280,7 +281,7 @@ TEST_CASE("A bond damaged by combined loads goes back and forth along (1-D) k",
       REQUIRE(top.D < D + 0.02);
 
       // The stiffness is that of the length R_i + R_j, so loads are linear in the motion up
-      // to the round-off of places: 1e-17 m of 1e-5 m.
+      // to the round-off of positions: 1e-17 m of 1e-5 m.
       const double back = -0.2;
       go(back);
       const BondReading low = pair.read();
@@ -293,7 +294,7 @@ TEST_CASE("A bond damaged by combined loads goes back and forth along (1-D) k",
       go(-0.999 * back);
       CHECK(pair.read().D == top.D);
       CHECK(pair.lost() == lost);
-      go(0.01); // and yields again where it had left
+      go(0.01); // and yields again at the loads at which it unloaded
       CHECK(pair.read().D > top.D);
     }
 }

@@ -10,15 +10,15 @@ namespace {
 
 const Vec2 none(0, 0), ex(1, 0), ey(0, 1);
 
-/// A straight piece of a path, in motions at which one strength alone is met.
-struct Leg {
+/// A straight stage of a path, in units of the motion that reaches each strength alone.
+struct LoadingStage {
   double n;
   Vec2 v, m;
 };
 
 struct Path {
   const char* name;
-  std::vector<Leg> legs;
+  std::vector<LoadingStage> stages;
 };
 
 const Path paths[] = {
@@ -34,7 +34,7 @@ const Path paths[] = {
     {"along the edge and off it", {{1.2, 1.2 * ex, none}, {0, 0.1 * ex, 3 * ey}}},
     {"to the tip n = 1", {{3, none, 0.5 * ey}}},
     {"past the tip", {{1, none, 2 * ey}}},
-    {"directions turn",
+    {"rotating directions",
      {{1, 0.5 * ex, 0.2 * ey}, {0.2, 1 * ey, 1 * ex}, {-1.2, 0.3 * ex, 0.5 * ey}}},
 };
 
@@ -44,11 +44,12 @@ std::vector<BondPoint> follow(const Path& path, const OneBond& bond, int n)
 {
   std::vector<BondPoint> out;
   Integrator at(bond);
-  for (const Leg& leg : path.legs) follow_leg(at, bond.motion(leg.n, leg.v, leg.m), n, out);
+  for (const LoadingStage& stage : path.stages)
+    follow_stage(at, bond.motion(stage.n, stage.v, stage.m), n, out);
   return out;
 }
 
-/// True loads over strengths, greatest of each.
+/// Largest true loads over strengths.
 struct Peak {
   double n = 0.0, v = 0.0, m = 0.0;
 
@@ -60,19 +61,19 @@ struct Peak {
   }
 };
 
-/// Largest relative difference; a load that is not there does not count.
+/// Largest relative difference; a load of zero does not count.
 double difference(const Peak& a, const Peak& b)
 {
   const auto of = [](double x, double y) { return y > 0.0 ? std::abs(x / y - 1.0) : 0.0; };
   return std::max({of(a.n, b.n), of(a.v, b.v), of(a.m, b.m)});
 }
 
-/// Share of the leg at which the bond first yields.
-double elastic_range(const OneBond& bond, const Leg& leg)
+/// Share of the stage at which the bond first yields.
+double elastic_range(const OneBond& bond, const LoadingStage& stage)
 {
   const auto is_outside = [&](double share) {
     LawPath at(bond);
-    at.step(share * bond.motion(leg.n, leg.v, leg.m));
+    at.step(share * bond.motion(stage.n, stage.v, stage.m));
     return at.s() > 0.0;
   };
   double low = 0.0, high = 2.0;
@@ -83,16 +84,17 @@ double elastic_range(const OneBond& bond, const Leg& leg)
   return low;
 }
 
-/// Peak over three elastic ranges in steps of range/n, each cut into `parts`; the first
-/// step is `first` of the others, so that yield falls into the middle of a step.
+/// Peak over three elastic ranges in steps of range/n, each divided into `parts`; the first
+/// step is `first` times the others, so that yield lies within a step.
 template <class Integrator>
-Peak peak(const OneBond& bond, const Leg& leg, double range, int n, double first, int parts)
+Peak peak(const OneBond& bond, const LoadingStage& stage, double range, int n, double first,
+          int parts)
 {
   Integrator at(bond);
   Peak out;
   for (int step = 0; step < 3 * n; ++step) {
     const double share = range / n * (step == 0 ? first : 1.0);
-    const BondMotion du = (share / parts) * bond.motion(leg.n, leg.v, leg.m);
+    const BondMotion du = (share / parts) * bond.motion(stage.n, stage.v, stage.m);
     for (int part = 0; part < parts; ++part) at.step(du);
     out.see(at.at());
   }
@@ -101,11 +103,11 @@ Peak peak(const OneBond& bond, const Leg& leg, double range, int n, double first
 
 } // namespace
 
-TEST_CASE("Combined loading converges to the rate form, to the first order in the step",
+TEST_CASE("Combined loading converges to the rate form at first order in the step",
           "[verification][dem]")
 {
-  // u_c and theta_c such that damage takes the whole path. The coarsest run has some 40 to
-  // 150 steps in the elastic range.
+  // u_c and theta_c such that damage grows over the whole path. The coarsest run has some
+  // 40 to 150 steps in the elastic range.
   const auto flow = GENERATE(BendingFlow::conjugate, BendingFlow::published);
   for (const Path& path : paths) {
     const OneBond bond(flow, 0.5e-3, 20e-3);
@@ -116,7 +118,8 @@ TEST_CASE("Combined loading converges to the rate form, to the first order in th
     CAPTURE(path.name, static_cast<int>(flow), reference_error, e[0], e[1], e[2], e[3]);
     REQUIRE(exact.back().D > 0.5);
     CHECK(reference_error < 0.02 * e[3]);
-    CHECK(e[0] < 0.012); // measured 3e-5 (tip) to 1.1e-2 (mostly bending), both published
+    // Measured 3e-5 (tip) to 1.1e-2 (mostly bending), both with the published flow.
+    CHECK(e[0] < 0.012);
     // Backward Euler: halving the step halves the error; measured 1.85 to 2.06.
     for (int k = 0; k < 3; ++k) CHECK(e[k] / e[k + 1] == Approx(2.0).epsilon(0.12));
   }
@@ -125,14 +128,14 @@ TEST_CASE("Combined loading converges to the rate form, to the first order in th
 TEST_CASE("Five steps in the elastic range give the peak load within half a percent",
           "[verification][dem]")
 {
-  // The peak is at yield, a kink of the curve: a run that steps over it sees 1 - x/n of it,
-  // x the share of a step, whatever its law. The law's own error is what is left against
-  // the rate form seen at the same instants: one step of a method of first order. Softening
-  // of Table 1 (theta_c = 0.1 mrad) and of Table 3 (10 mrad).
-  const Leg legs[] = {{1, 0.5 * ex, 0.4 * ey}, {-1, 0.5 * ex, 0.4 * ey},
-                      {0.5, 1 * ex, 0.2 * ey}, {0.3, 0.3 * ex, 1 * ey},
-                      {1, 1 * ex, none},       {1, none, 0.3 * ey},
-                      {-0.3, 1 * ex, 1 * ey}};
+  // The peak is at yield, a kink of the curve: a run that steps over it finds 1 - x/n of
+  // it, x the share of a step, with any law. The error of the law is the difference from
+  // the rate form at the same instants: one step of a method of first order. Softening of
+  // Table 1 (theta_c = 0.1 mrad) and of Table 3 (10 mrad).
+  const LoadingStage stages[] = {{1, 0.5 * ex, 0.4 * ey}, {-1, 0.5 * ex, 0.4 * ey},
+                                 {0.5, 1 * ex, 0.2 * ey}, {0.3, 0.3 * ex, 1 * ey},
+                                 {1, 1 * ex, none},       {1, none, 0.3 * ey},
+                                 {-0.3, 1 * ex, 1 * ey}};
   const auto flow = GENERATE(BendingFlow::conjugate, BendingFlow::published);
   const double theta_c = GENERATE(0.1e-3, 10e-3);
   // measured: 3.9e-3, 9.1e-4, 2.2e-4, 1.1e-5
@@ -140,23 +143,23 @@ TEST_CASE("Five steps in the elastic range give the peak load within half a perc
       {5, 5e-3}, {10, 1.2e-3}, {20, 3e-4}, {100, 3e-5}};
   for (const auto& [n, most] : allowed) {
     double own = 0.0, on_yield = 0.0;
-    for (const Leg& leg : legs) {
+    for (const LoadingStage& stage : stages) {
       const OneBond bond(flow, 0.1e-3, theta_c);
-      const double range = elastic_range(bond, leg);
-      const Peak exact = peak<RateForm>(bond, leg, range, 5000, 1.0, 1);
-      on_yield =
-          std::max(on_yield, difference(peak<LawPath>(bond, leg, range, n, 1.0, 1), exact));
+      const double range = elastic_range(bond, stage);
+      const Peak exact = peak<RateForm>(bond, stage, range, 5000, 1.0, 1);
+      on_yield = std::max(on_yield,
+                          difference(peak<LawPath>(bond, stage, range, n, 1.0, 1), exact));
       for (const double first : {0.25, 0.5, 0.75})
-        own = std::max(own, difference(peak<LawPath>(bond, leg, range, n, first, 1),
-                                       peak<RateForm>(bond, leg, range, n, first, 1000)));
+        own = std::max(own, difference(peak<LawPath>(bond, stage, range, n, first, 1),
+                                       peak<RateForm>(bond, stage, range, n, first, 1000)));
     }
     CAPTURE(static_cast<int>(flow), theta_c, n, own, on_yield);
     CHECK(own < most);
-    CHECK(on_yield < 1e-9); // where a step ends on yield, the peak is there
+    CHECK(on_yield < 1e-9); // exact where a step ends at yield
   }
 }
 
-TEST_CASE("Straight loading settles where the flow is parallel to the motion",
+TEST_CASE("Straight loading settles where the plastic flow is parallel to the motion",
           "[verification][dem]")
 {
   // Perfect plasticity in effective loads: dq = 0 where k du = Lambda k dg/dq (Eqs. 2, 7).

@@ -1,7 +1,7 @@
 /// The law against the algorithm that the paper prints: Appendix 1, Eqs. 9-11, with Eqs. 3
-/// and 7. Its misprints are mended (Eq. 3 accumulates; rows 2 and 3 of Eq. 11 take their
-/// own displacement), but for Eq. 10, which is tried both ways, and what Appendix 2 does to
-/// the load, also both ways.
+/// and 7. Misprints are corrected (Eq. 3 accumulates; rows 2 and 3 of Eq. 11 use their own
+/// displacement). Eq. 10 is tested as printed and corrected, and Appendix 2 in both of its
+/// readings.
 #include "tests/verification/bond_rate_form.h"
 
 #include <catch2/catch.hpp>
@@ -14,13 +14,13 @@ namespace {
 /// Plastic multiplier of Eq. 10.
 enum class Multiplier {
   mended,    ///< with df/dD of the strengths, which cancels df/dD of the loads
-  as_printed ///< the strengths are held while the loads shrink with D
+  as_printed ///< the strengths are constant while the loads decrease with D
 };
 
-/// What Appendix 2 is for.
+/// The two readings of Appendix 2.
 enum class ClosestPoint {
-  gradient_only, ///< where the gradients of Eqs. 7, 10 are taken; the rest of f carries on
-  receives_the_load ///< and the load of Eq. 11 is put on the surface
+  gradient_only, ///< the gradients of Eqs. 7, 10 are those of this point; f need not vanish
+  receives_the_load ///< the load of Eq. 11 is also moved to it
 };
 
 struct Reading {
@@ -51,7 +51,7 @@ public:
     const double gkg = g.N * k_n * g.N + g.V * k_s * g.V + g.M * k_b * g.M;
     const double lambda = f / (gkg + bracket(g, d)); // Eq. 10
     const double du_n = lambda * g.N;                // Eq. 7
-    // no further than to zero: on the edge m = 0 the flow would turn the moment round
+    // no further than to zero: on the edge m = 0 the flow would reverse the moment
     const double du_s = std::min(lambda * g.V, q_.V / k_s);
     const double dtheta = std::min(lambda * g.M, q_.M / k_b);
     s_ += (std::abs(du_n) + du_s) / b_.law.u_c + dtheta / b_.law.theta_c; // Eq. 3
@@ -82,7 +82,7 @@ private:
   {
     return {q.N / strength.N, q.V / strength.V, q.M / strength.M};
   }
-  /// Eq. 5, and where it changes sign beyond n = 1 the continuation of the law.
+  /// Eq. 5; beyond n = 1, where it would change sign, the continuation of the law.
   double yield(const YieldPoint& y) const
   {
     const double n2 = y.n * y.n, v2 = y.v * y.v, m = std::pow(y.m, how_.exponent);
@@ -95,7 +95,7 @@ private:
     return closest_point(
         y, {strength.N * strength.N, strength.V * strength.V, strength.M * strength.M});
   }
-  /// df/d(N, V, Mbar); no part in M where no moment ever acts, as m^0.001 has it.
+  /// df/d(N, V, Mbar); zero in M where no moment ever acts, as with m^0.001.
   Loads gradient(const YieldPoint& y, const Loads& strength) const
   {
     const double p = 1.0 - y.n * y.n;
@@ -127,7 +127,7 @@ private:
   double s_ = 0.0;
 };
 
-/// A straight path, in motions at which one strength alone is met.
+/// A straight path, in units of the motion that reaches each strength alone.
 struct Path {
   const char* name;
   double n, v, m;
@@ -148,7 +148,7 @@ template <class Integrator>
 std::vector<BondPoint> follow(const Path& path, const OneBond& bond, Integrator at, int n)
 {
   std::vector<BondPoint> out;
-  follow_leg(at, bond.motion(path.n, Vec2(path.v, 0.0), Vec2(0.0, path.m)), n, out);
+  follow_stage(at, bond.motion(path.n, Vec2(path.v, 0.0), Vec2(0.0, path.m)), n, out);
   return out;
 }
 
@@ -157,11 +157,11 @@ const Reading mended{}, printed{Multiplier::as_printed, ClosestPoint::gradient_o
 
 } // namespace
 
-TEST_CASE("Under one load the published algorithm follows the law, to the second order",
+TEST_CASE("Under one load the published algorithm follows the law at second order",
           "[verification][dem]")
 {
-  // The law is exact here, N = exp(-(u-u_y)/u_c); one Taylor step of f = n^2 - 1 or v^4 - 1
-  // leaves the square of its length, that of f = m - 1 nothing.
+  // The law is exact here, N = exp(-(u-u_y)/u_c). One Taylor step of f = n^2 - 1 or v^4 - 1
+  // leaves an error of the square of its length, one of f = m - 1 none.
   const OneBond bond(BendingFlow::published, 0.5e-3, 20e-3);
   for (const Path& path : single) {
     CAPTURE(path.name);
@@ -182,7 +182,7 @@ TEST_CASE("Under one load the published algorithm follows the law, to the second
 }
 
 TEST_CASE(
-    "Under combined loads the published algorithm, Eq. 10 mended, has the law's limit",
+    "Under combined loads the published algorithm, Eq. 10 corrected, has the law's limit",
     "[verification][dem]")
 {
   const OneBond bond(BendingFlow::published, 0.5e-3, 20e-3);
@@ -198,7 +198,7 @@ TEST_CASE(
     }
     CAPTURE(path.name, e[0], e[1], e[2], apart[0], apart[1], apart[2]);
     CHECK(e[0] < 6e-3);           // measured 3.8e-4 to 4.5e-3
-    for (int k = 0; k < 2; ++k) { // first order: a quarter of the step, of the error
+    for (int k = 0; k < 2; ++k) { // first order: 1/4 of the step, 1/4 of the error
       CHECK(e[k] / e[k + 1] == Approx(4.0).epsilon(0.15));
       CHECK(apart[k] / apart[k + 1] == Approx(4.0).epsilon(0.15));
     }
@@ -207,10 +207,11 @@ TEST_CASE(
 
 TEST_CASE("Eq. 10 as printed has the same limit with a larger error", "[verification][dem]")
 {
-  // Its multiplier is short by the factor 1 + u_y/u_c (under one load): f settles at a
+  // Its multiplier is too small by the factor 1 + u_y/u_c (under one load): f settles at a
   // value of the order of the step instead of its square. Measured: 12 (tension and
-  // bending) to 870 times (tension and shear) the error of Eq. 10 mended, at the same step.
-  double least = 1e300, most = 0.0;
+  // bending) to 870 times (tension and shear) the error of Eq. 10 corrected, at the same
+  // step.
+  double smallest = 1e300, most = 0.0;
   for (const Path& path : combined) {
     const OneBond bond(BendingFlow::published, 0.1e-3, 10e-3); // Tables 1 and 3
     const auto exact = follow(path, bond, RateForm(bond), 8000);
@@ -222,20 +223,20 @@ TEST_CASE("Eq. 10 as printed has the same limit with a larger error", "[verifica
     CAPTURE(path.name, e_1, e_2, ratio);
     CHECK(e_1 / e_2 == Approx(4.0).epsilon(0.15));
     CHECK(ratio > 5.0);
-    least = std::min(least, ratio);
+    smallest = std::min(smallest, ratio);
     most = std::max(most, ratio);
   }
-  CAPTURE(least, most);
-  CHECK(least < 20.0);
+  CAPTURE(smallest, most);
+  CHECK(smallest < 20.0);
   CHECK(most > 100.0);
 }
 
-TEST_CASE("Eq. 10 as printed, its load put on the surface, softens over u_c + u_y",
+TEST_CASE("Eq. 10 as printed, its load moved to the surface, softens over u_c + u_y",
           "[verification][dem]")
 {
-  // Each step then brings 1/(1 + u_y/u_c) of the plastic motion and takes the rest of f
-  // away unbooked: N = exp(-(u-u_y)/(u_c+u_y)) in place of Eq. 3. Of the two readings of
-  // Appendix 2 only the other can be meant.
+  // Each step then adds 1/(1 + u_y/u_c) of the plastic motion and removes the rest of f
+  // without counting it: N = exp(-(u-u_y)/(u_c+u_y)) in place of Eq. 3. Appendix 2 can only
+  // have the other reading.
   const OneBond bond(BendingFlow::published, 0.5e-3, 20e-3);
   for (const Path& path : single) {
     const BondMotion at = bond.motion(path.n / 3.0, {path.v / 3.0, 0}, {path.m / 3.0, 0});
@@ -254,7 +255,7 @@ TEST_CASE("Eq. 10 as printed, its load put on the surface, softens over u_c + u_
   }
 }
 
-TEST_CASE("The exponent 1.001 of Eq. 5 moves the limit by less than a thousandth",
+TEST_CASE("The exponent 1.001 of Eq. 5 moves the limit by less than 1e-3",
           "[verification][dem]")
 {
   double most = 0.0;

@@ -24,7 +24,7 @@ PairMaterials materials(BendingFlow flow)
   return {law, contact(40e6, 2.0, 0.3, 0.002 * d00)};
 }
 
-/// What a reader of one curve sees at one strain, in units of S.
+/// One point of a curve, scaled with S.
 struct Reading {
   Vec3 f_i, t_i, t_j;
   double N, V, M, D;
@@ -46,16 +46,17 @@ Reading reading(const Scene& s, double S)
           r.V.norm() / S2,
           r.M.norm() / S3,
           r.D,
-          shear_beside(s.bonds, 0).norm() / S2};
+          contact_shear_of(s.bonds, 0).norm() / S2};
 }
 
-/// A pair of unequal grains, each with its own S, and what is beside the bond.
+/// A pair of unequal particles, each with its own S, bonded, with a contact beside the
+/// bond.
 Scene pair(BendingFlow flow, double S)
 {
   Scene s;
   s.material = materials(flow);
   const double R_i = 0.4 * d00, R_j = 0.7 * d00;
-  Body i = sphere({0.1 * d00 * S, 0.0, 0.2 * d00 * S}, R_i * S), j = i;
+  ParticleState i = sphere({0.1 * d00 * S, 0.0, 0.2 * d00 * S}, R_i * S), j = i;
   j = sphere(i.x + (R_i + R_j) * S / 3.0 * Vec3(2, -1, 2), R_j * S);
   i.S = 1.5 * S;
   j.S = 3.4 * S;
@@ -80,7 +81,7 @@ Curve imposed(BendingFlow flow, double S)
         omega[e] = 1e-4 / dt * random_vector(random);
       }
     for (std::size_t e = 0; e < 2; ++e) {
-      Body& b = s.p.body[e];
+      ParticleState& b = s.p.state[e];
       b.v = v[e] * S;
       b.x += dt * b.v;
       b.omega = omega[e];
@@ -98,8 +99,8 @@ Curve free_flight(BendingFlow flow, double S)
   s.motion.damping = 0.2;
   for (std::size_t e = 0; e < 2; ++e) {
     const double side = e == 0 ? 1.0 : -1.0;
-    s.p.body[e].v = side * Vec3(-0.12, 0.15, 0.02);
-    s.p.body[e].omega = (side * Vec3(2e3, 1e3, -4e3) + Vec3(500, 900, 300)) / S;
+    s.p.state[e].v = side * Vec3(-0.12, 0.15, 0.02);
+    s.p.state[e].omega = (side * Vec3(2e3, 1e3, -4e3) + Vec3(500, 900, 300)) / S;
   }
   const double dt = 1e-9 * S;
   s.start(dt);
@@ -126,7 +127,7 @@ double difference(const Curve& a, const Curve& b)
   return std::max({df / f, dt / t, dD});
 }
 
-void check_is_telling(const Curve& c)
+void check_is_conclusive(const Curve& c)
 {
   double slides = 0.0;
   for (const Reading& r : c) slides = std::max(slides, r.slides);
@@ -143,10 +144,10 @@ using Run = Curve (*)(BendingFlow, double);
 TEST_CASE("S = 1, 2 and 64 give one curve N/S^2, V/S^2, M/S^3, to the bit",
           "[verification][dem]")
 {
-  // Powers of two scale without a rounding: any length that does not scale would show.
+  // Powers of two scale without rounding: any length that does not scale would show.
   for (const Run run : {&imposed, &free_flight}) {
     const Curve one = run(BendingFlow::conjugate, 1.0);
-    check_is_telling(one);
+    check_is_conclusive(one);
     for (const double S : {2.0, 64.0, 1.0 / 8.0})
       CHECK(run(BendingFlow::conjugate, S) == one);
   }
@@ -159,7 +160,7 @@ TEST_CASE("S = 1, 3, 10 and 100 give one curve to round-off", "[verification][de
     for (const double S : {3.0, 10.0, 100.0}) {
       const double e = difference(one, run(BendingFlow::conjugate, S));
       CAPTURE(S, e);
-      // Places are rounded to 1e-16 of the distance, which is 1e-13 of the yield
+      // Positions are rounded to 1e-16 of the distance, which is 1e-13 of the yield
       // displacement, 800 times; measured 2.0e-12 at most.
       CHECK(e < 1e-11);
     }
@@ -169,11 +170,11 @@ TEST_CASE("S = 1, 3, 10 and 100 give one curve to round-off", "[verification][de
 TEST_CASE("Bending flow as printed does not scale, by its missing length",
           "[verification][dem]")
 {
-  // Eq. 7 divides a moment by the bond's radius without saying in which unit: S times the
-  // grain is another material, and the larger ones bend the more plastically.
+  // Eq. 7 divides a moment by the bond radius without stating its unit: particles S times
+  // as large are another material, and larger ones bend more plastically.
   const Curve one = imposed(BendingFlow::published, 1.0);
   const Curve hundred = imposed(BendingFlow::published, 100.0);
-  check_is_telling(one);
+  check_is_conclusive(one);
   const double apart = difference(one, hundred);
   CAPTURE(apart);
   CHECK(apart > 1e-2); // measured 7e-2

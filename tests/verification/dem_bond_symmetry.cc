@@ -1,5 +1,5 @@
-/// One bond, yielding, damaged and with a sliding contact beside it, seen in a mirror, from
-/// elsewhere, from its other end and in any lane of the kernel.
+/// Symmetries of one bond that yields, is damaged and has a sliding contact beside it: ends
+/// swapped, mirrored, rotated, shifted, and in any lane of the kernel.
 #include "tests/support/dem_scene.h"
 
 #include <catch2/catch.hpp>
@@ -12,19 +12,19 @@ namespace {
 constexpr double dt = 1e-4;
 constexpr int n_steps = 600;
 
-/// Places of both ends at every step, and how they came there.
+/// Positions of both ends at every step, and the velocities and spins that lead there.
 struct Script {
   double R[2];
   std::vector<Vec3> x[2], v[2], omega[2];
 };
 
-/// To a grid of 2^-44 m, so that a shift by some metres is exact.
+/// Rounds to a grid of 2^-44 m, so that a shift by some metres is exact.
 Vec3 on_grid(const Vec3& x)
 {
   return (x * 0x1p44).array().round().matrix() * 0x1p-44;
 }
 
-/// Random stretching, shearing and bending past yield, on top of a turn of the whole pair.
+/// Random stretching, shearing and bending past yield, with a rotation of the whole pair.
 Script script(int seed, double R_i, double R_j)
 {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
@@ -54,16 +54,16 @@ Script script(int seed, double R_i, double R_j)
   return s;
 }
 
-/// How another observer sees it: x' = A x + shift, spins with the sign of A's determinant.
+/// Transformed scene: x' = A x + shift; spins take the sign of the determinant of A.
 struct View {
   Mat3 A = Mat3::Identity();
   Vec3 shift = Vec3::Zero();
-  bool swapped = false; ///< the ends have changed their numbers
+  bool swapped = false; ///< the ends exchange their numbers
 
   Vec3 axial(const Vec3& a) const { return A.determinant() < 0.0 ? Vec3(-(A * a)) : A * a; }
 };
 
-/// Force and torque on both ends at every step, and what became of the bond.
+/// Force and torque on both ends at every step, and the final state of the bond.
 struct Story {
   std::vector<Vec3> f[2], t[2];
   double D = 0.0, slip = 0.0, plastic = 0.0;
@@ -90,7 +90,7 @@ Story seen(const Script& script, const View& view, BendingFlow flow)
   Story out;
   for (std::size_t k = 0; k < n_steps; ++k) {
     for (std::size_t e = 0; e < 2; ++e) {
-      Body& b = s.p.body[at[e]];
+      ParticleState& b = s.p.state[at[e]];
       b.x = view.A * script.x[e][k + 1] + view.shift;
       b.v = view.A * script.v[e][k];
       b.omega = view.axial(script.omega[e][k]);
@@ -121,8 +121,8 @@ double difference(const Story& plain, const Story& other, const View& view)
   return std::max({df / f, dtorque / t, std::abs(plain.D - other.D)});
 }
 
-/// The bond yields and is damaged, its contact slides, and the pair is not yet broken.
-void check_is_telling(const Story& s)
+/// The bond yields and is damaged, the contact slides, and the bond is not yet broken.
+void check_is_conclusive(const Story& s)
 {
   CAPTURE(s.D, s.slip, s.plastic);
   CHECK(s.D > 0.1);
@@ -135,7 +135,8 @@ const BendingFlow flows[] = {BendingFlow::conjugate, BendingFlow::published};
 
 } // namespace
 
-TEST_CASE("A bond does not know which of its ends comes first", "[verification][dem]")
+TEST_CASE("The loads of a bond do not depend on the order of its ends",
+          "[verification][dem]")
 {
   View swapped;
   swapped.swapped = true;
@@ -144,20 +145,20 @@ TEST_CASE("A bond does not know which of its ends comes first", "[verification][
       // Equal radii: both arms are half the distance exactly, and so are the bits.
       const Script equal = script(seed, 0.03, 0.03);
       const Story a = seen(equal, {}, flow), b = seen(equal, swapped, flow);
-      check_is_telling(a);
+      check_is_conclusive(a);
       CHECK(difference(a, b, swapped) == 0.0);
       CHECK(a.plastic == b.plastic);
       CHECK(a.slip == b.slip);
-      // Unequal: the arm of j is what that of i leaves of the distance, one rounding away;
+      // Unequal: the arm of j is the distance less that of i, with one rounding more;
       // measured 2.5e-15.
       const Script unequal = script(seed, 0.02, 0.04);
       const Story c = seen(unequal, {}, flow), d = seen(unequal, swapped, flow);
-      check_is_telling(c);
+      check_is_conclusive(c);
       CHECK(difference(c, d, swapped) < 1e-14);
     }
 }
 
-TEST_CASE("A mirror turns forces like arrows and torques like spins, to the bit",
+TEST_CASE("Mirroring reflects forces as vectors and torques as pseudovectors, to the bit",
           "[verification][dem]")
 {
   for (const BendingFlow flow : flows)
@@ -166,57 +167,57 @@ TEST_CASE("A mirror turns forces like arrows and torques like spins, to the bit"
       mirror.A(axis, axis) = -1.0;
       const Script s = script(4 + axis, 0.02, 0.04);
       const Story a = seen(s, {}, flow), b = seen(s, mirror, flow);
-      check_is_telling(a);
+      check_is_conclusive(a);
       CHECK(difference(a, b, mirror) == 0.0);
       CHECK(a.plastic == b.plastic);
       CHECK(a.slip == b.slip);
     }
 }
 
-TEST_CASE("A scene turned about any axis has its loads turned with it",
+TEST_CASE("The loads of a scene rotated about any axis rotate with it",
           "[verification][dem]")
 {
-  // Places turn with an error of some 1e-17 m, against a yield displacement of 0.15 mm;
-  // measured 1.3e-13.
+  // Rotated positions have an error of some 1e-17 m, against a yield displacement of
+  // 0.15 mm; measured 1.3e-13.
   std::mt19937_64 random(8);
   double worst = 0.0;
   for (const BendingFlow flow : flows)
     for (int k = 0; k < 8; ++k) {
-      View turned;
-      turned.A = Eigen::AngleAxisd(6.0 * random_vector(random).x(),
-                                   random_vector(random).normalized())
-                     .toRotationMatrix();
+      View rotated;
+      rotated.A = Eigen::AngleAxisd(6.0 * random_vector(random).x(),
+                                    random_vector(random).normalized())
+                      .toRotationMatrix();
       const Script s = script(10 + k, 0.02, 0.04);
-      const Story a = seen(s, {}, flow), b = seen(s, turned, flow);
-      check_is_telling(a);
-      worst = std::max(worst, difference(a, b, turned));
+      const Story a = seen(s, {}, flow), b = seen(s, rotated, flow);
+      check_is_conclusive(a);
+      worst = std::max(worst, difference(a, b, rotated));
     }
   CAPTURE(worst);
   CHECK(worst < 5e-13);
 }
 
-TEST_CASE("The origin is nowhere in the loads, to the bit", "[verification][dem]")
+TEST_CASE("The loads do not depend on the origin, to the bit", "[verification][dem]")
 {
-  // Places on a grid of 2^-44 m: with a shift of a few metres they still are doubles.
+  // Positions on a grid of 2^-44 m stay exact doubles after a shift of a few metres.
   View shifted;
   shifted.shift = {3.0, -5.0, 0.375};
   for (const BendingFlow flow : flows)
     for (const int seed : {20, 21, 22}) {
       const Script s = script(seed, 0.02, 0.04);
       const Story a = seen(s, {}, flow), b = seen(s, shifted, flow);
-      check_is_telling(a);
+      check_is_conclusive(a);
       CHECK(difference(a, b, shifted) == 0.0);
       CHECK(a.plastic == b.plastic);
     }
 }
 
-TEST_CASE("A bond gets the same bits in every lane and beside any neighbours",
+TEST_CASE("A bond has the same bits in every lane and beside any neighbours",
           "[verification][dem]")
 {
   const Script told = script(30, 0.02, 0.04);
   for (const BendingFlow flow : flows) {
     const Story alone = seen(told, {}, flow);
-    check_is_telling(alone);
+    check_is_conclusive(alone);
     for (const std::size_t n_bonds : {4u, 9u}) // full blocks, and a last one of one bond
       for (std::size_t place = 0; place < n_bonds; ++place) {
         std::vector<Script> scripts;
@@ -235,10 +236,10 @@ TEST_CASE("A bond gets the same bits in every lane and beside any neighbours",
         for (std::size_t k = 0; k < n_steps; ++k) {
           for (std::size_t b = 0; b < n_bonds; ++b)
             for (std::size_t e = 0; e < 2; ++e) {
-              Body& body = s.p.body[2 * b + e];
-              body.x = scripts[b].x[e][k + 1];
-              body.v = scripts[b].v[e][k];
-              body.omega = scripts[b].omega[e][k];
+              ParticleState& particle = s.p.state[2 * b + e];
+              particle.x = scripts[b].x[e][k + 1];
+              particle.v = scripts[b].v[e][k];
+              particle.omega = scripts[b].omega[e][k];
             }
           s.forces(dt);
           for (std::size_t e = 0; e < 2; ++e) {

@@ -7,7 +7,7 @@ using namespace mergel::dem::test;
 
 namespace {
 
-/// Mean period of a swinging quantity that starts at zero and rises, from its upward zeros.
+/// Mean period of an oscillation that starts upwards from zero, from its upward zeros.
 template <class Quantity>
 double period(Scene& s, double dt, int n_periods, Quantity&& quantity)
 {
@@ -44,10 +44,10 @@ TEST_CASE("A bonded pair stretches at omega^2 = k_n0 A (1/m1 + 1/m2)",
           "[verification][dem]")
 {
   Scene s = unequal_pair();
-  const Body &i = s.p.body[0], &j = s.p.body[1];
+  const ParticleState &i = s.p.state[0], &j = s.p.state[1];
   const double omega = std::sqrt(k_n * (1.0 / i.m + 1.0 / j.m)), dt = 0.02 / omega;
-  s.p.body[1].v.x() = 1e-4;
-  s.p.body[0].v.x() = -1e-4 * j.m / i.m;
+  s.p.state[1].v.x() = 1e-4;
+  s.p.state[0].v.x() = -1e-4 * j.m / i.m;
   const double T = period(s, dt, 20, [&] { return j.x.x() - i.x.x() - 0.05; });
   // Leapfrog shortens the period by (omega dt)^2/24 = 1.7e-5.
   CHECK(T * omega / (2.0 * pi) == Approx(1.0 - 0.02 * 0.02 / 24.0).epsilon(1e-6));
@@ -56,13 +56,13 @@ TEST_CASE("A bonded pair stretches at omega^2 = k_n0 A (1/m1 + 1/m2)",
 TEST_CASE("A bonded pair bends at omega^2 = k_b0 (1/I1 + 1/I2)", "[verification][dem]")
 {
   Scene s = unequal_pair();
-  section(s.material.bond).kappa = 1e12; // no shear, which unequal spins would stir
-  const Body &i = s.p.body[0], &j = s.p.body[1];
+  section(s.material.bond).kappa = 1e12; // no shear, which unequal spins would excite
+  const ParticleState &i = s.p.state[0], &j = s.p.state[1];
   const double k_b = k_n * R_b * R_b / 4.0;
   const double omega = std::sqrt(k_b * (1.0 / i.inertia() + 1.0 / j.inertia()));
   const double dt = 0.02 / omega;
-  s.p.body[1].omega.z() = 1e-3;
-  s.p.body[0].omega.z() = -1e-3 * j.inertia() / i.inertia();
+  s.p.state[1].omega.z() = 1e-3;
+  s.p.state[0].omega.z() = -1e-3 * j.inertia() / i.inertia();
   const double T = period(s, dt, 20, [&] { return s.bonds.blocks[0].M.z[0]; });
   CHECK(T * omega / (2.0 * pi) == Approx(1.0 - 0.02 * 0.02 / 24.0).epsilon(1e-6));
 }

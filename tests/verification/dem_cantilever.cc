@@ -25,15 +25,15 @@ Springs springs()
   return {k_n / bond.kappa, k_n * R_b * R_b / 4.0};
 }
 
-/// A row of n+1 bonded spheres along x; the first is held.
+/// A row of n+1 bonded particles along x; the first is fixed.
 ///
 /// As a beam: E I = k_b d, G A = k_s d, and per length the mass m/d and the rotary inertia
-/// I_p/d; length L = n d, from the held centre to the last.
+/// I_p/d; length L = n d, from the fixed centre to the last.
 struct Cantilever {
   int n;
   Scene s;
   double dt;
-  double angle = 0.0; ///< rotation of the last sphere about z [rad]
+  double angle = 0.0; ///< rotation of the last particle about z [rad]
 
   Cantilever(int n_bonds, double damping) : n(n_bonds)
   {
@@ -50,15 +50,15 @@ struct Cantilever {
   }
 
   double L() const { return n * d; }
-  Body& tip() { return s.p.body[static_cast<std::size_t>(n)]; }
+  ParticleState& tip() { return s.p.state[static_cast<std::size_t>(n)]; }
   Load& tip_load() { return s.p.load[static_cast<std::size_t>(n)]; }
 
   void step()
   {
     s.step(dt);
-    s.p.body[0].x.setZero();
-    s.p.body[0].v.setZero();
-    s.p.body[0].omega.setZero();
+    s.p.state[0].x.setZero();
+    s.p.state[0].v.setZero();
+    s.p.state[0].omega.setZero();
     angle += dt * tip().omega.z();
   }
   /// A damped row comes to rest in some ten of its periods, which grow with n^2.
@@ -68,13 +68,13 @@ struct Cantilever {
   }
 };
 
-/// Deflection and rotation of one sphere, or force and moment on it.
+/// Deflection and rotation of one particle, or force and moment on it.
 struct Deflection {
   double y, theta;
 };
-using Shape = std::vector<Deflection>; ///< of spheres 1 to n
+using Shape = std::vector<Deflection>; ///< of particles 1 to n
 
-/// Statics of the springs: bond b carries what acts beyond it, V_b and M_b at its contact
+/// Statics of the springs: bond b carries the loads beyond it, V_b and M_b at its contact
 /// point, and
 ///   theta_b+1 - theta_b = M_b/k_b,   y_b+1 - y_b = R (theta_b + theta_b+1) + V_b/k_s
 Shape deflected(const Shape& loads)
@@ -108,7 +108,7 @@ struct Mode {
 /// 6 times as fast, so that an iteration leaves 1/36 of the error.
 Mode lowest_mode(const Cantilever& c)
 {
-  const Body& sphere = c.s.p.body[1];
+  const ParticleState& sphere = c.s.p.state[1];
   const double m = sphere.m, I_p = sphere.inertia();
   Mode mode{0.0, Shape(static_cast<std::size_t>(c.n), {1.0, 0.0})};
   for (int k = 0; k < 30; ++k) {
@@ -128,8 +128,8 @@ Mode lowest_mode(const Cantilever& c)
   return mode;
 }
 
-/// A beam over Euler and Bernoulli's: EI/(GA L^2), rho I/(rho A L^2), and a body at the tip
-/// of mass tip rho A L and rotary inertia tip rho I L.
+/// Corrections of Euler and Bernoulli's beam: shear = EI/(GA L^2), rotary = rho I/(rho A
+/// L^2), and a tip mass of tip rho A L with the rotary inertia tip rho I L.
 struct Slenderness {
   double shear, rotary, tip;
 };
@@ -139,7 +139,7 @@ struct Slenderness {
 ///
 /// With xi = x/L and lambda = omega^2 rho A L^4/EI:
 ///   w' = theta + shear V,   theta' = M,   M' = -V - lambda rotary theta,   V' = -lambda w
-/// w = theta = 0 at the held end; M = lambda rotary tip theta and V = lambda tip w at the
+/// w = theta = 0 at the fixed end; M = lambda rotary tip theta and V = lambda tip w at the
 /// other.
 /// Source: Timoshenko (1921); Han, Benaroya and Wei (1999), J. Sound Vib. 225, 935.
 double timoshenko_over_euler(const Slenderness& beam)
@@ -171,18 +171,18 @@ double timoshenko_over_euler(const Slenderness& beam)
   return std::sqrt(low / lambda_euler);
 }
 
-/// Frequencies of the row of spheres over Euler and Bernoulli's.
+/// Frequencies of the row of particles over Euler and Bernoulli's.
 struct Frequencies {
   double springs;    ///< exact, of the chain of springs
   double timoshenko; ///< of the beam of the same length
-  double with_tip;   ///< of that beam with half a sphere at its tip
+  double with_tip;   ///< of that beam with half a particle at its tip
   double correction; ///< EI/(GA L^2) + rho I/(rho A L^2)
 };
 Frequencies frequencies(int n)
 {
   const Cantilever c(n, 0.0);
   const Springs b = springs();
-  const double m = c.s.p.body[0].m, I_p = c.s.p.body[0].inertia(), L = c.L();
+  const double m = c.s.p.state[0].m, I_p = c.s.p.state[0].inertia(), L = c.L();
   const double euler =
       std::pow(1.8751040687119611, 2) * std::sqrt(b.k_b * d / (m / d)) / (L * L);
   const Slenderness beam{b.k_b / (b.k_s * L * L), I_p / (m * L * L), 0.0};
@@ -194,12 +194,12 @@ Frequencies frequencies(int n)
 
 } // namespace
 
-TEST_CASE("A cantilever of bonded spheres sags by the sum of F/(k_s0 A) + F a^2/k_b0",
+TEST_CASE("A cantilever of bonded particles sags by the sum of F/(k_s0 A) + F a^2/k_b0",
           "[verification][dem]")
 {
   // Statics of a chain of springs: each bond carries the shear F and the moment F a, a from
   // bond to tip. Of the bending part the sum is F L^3/(3 EI) (1 - 1/(4 n^2)): beam theory,
-  // to second order in the size of the spheres.
+  // to second order in the size of the particles.
   for (const int n : {4, 8, 16}) {
     Cantilever c(n, 0.7);
     const Springs b = springs();
@@ -208,7 +208,7 @@ TEST_CASE("A cantilever of bonded spheres sags by the sum of F/(k_s0 A) + F a^2/
       const double a = d * (n - k) - R;
       sag_per_F += 1.0 / b.k_s + a * a / b.k_b;
     }
-    const double F = 1e-4 * c.L() / sag_per_F; // slope 1e-4: geometry adds 1e-8
+    const double F = 1e-4 * c.L() / sag_per_F; // slope 1e-4: its square adds 1e-8
     c.s.add_more = [&](double) { c.tip_load().f.y() += F; };
     c.settle();
     CAPTURE(n);
@@ -217,44 +217,45 @@ TEST_CASE("A cantilever of bonded spheres sags by the sum of F/(k_s0 A) + F a^2/
     const double beam = std::pow(c.L(), 3) / (3.0 * b.k_b * d);
     CHECK(bending / beam == Approx(1.0 - 0.25 / (n * n)).epsilon(2e-8));
 
-    c.s.forces(0.0); // the held end carries force and moment
+    c.s.forces(0.0); // the fixed end carries force and moment
     CHECK(c.s.p.load[0].f.y() == Approx(F).epsilon(1e-7));
     CHECK(c.s.p.load[0].t.z() == Approx(F * c.L()).epsilon(1e-7));
   }
 }
 
-TEST_CASE(
-    "A moment at its tip turns a cantilever of bonded spheres by M L/EI and lifts it by "
-    "M L^2/(2 EI)",
-    "[verification][dem]")
+TEST_CASE("A moment at its tip rotates a cantilever of bonded particles by M L/EI and "
+          "deflects it "
+          "by M L^2/(2 EI)",
+          "[verification][dem]")
 {
-  // Each bond bends by M/k_b, so sphere k turns by k M/k_b, and the contact points hold
+  // Each bond bends by M/k_b, so particle k rotates by k M/k_b, and the contact points stay
   // together: y_n = R sum (theta_k + theta_k+1) = n^2 R M/k_b. With EI = k_b d this is beam
-  // theory for any number of spheres.
+  // theory for any number of particles.
   for (const int n : {4, 8, 16}) {
     Cantilever c(n, 0.7);
     const double EI = springs().k_b * d;
-    const double M = 1e-4 * EI / c.L(); // turns by 1e-4: geometry adds 1e-8
+    const double M = 1e-4 * EI / c.L(); // rotation 1e-4: its square is 1e-8
     c.s.add_more = [&](double) { c.tip_load().t.z() += M; };
     c.settle();
     CAPTURE(n);
     CHECK(c.angle == Approx(M * c.L() / EI).epsilon(1e-8)); // measured 2.4e-10
     CHECK(c.tip().x.y() == Approx(M * c.L() * c.L() / (2.0 * EI)).epsilon(1e-8)); // 8.4e-10
 
-    c.s.forces(0.0); // moment alone at the held end
+    c.s.forces(0.0); // moment alone at the fixed end
     CHECK(c.s.p.load[0].t.z() == Approx(M).epsilon(1e-8));
     CHECK(c.s.p.load[0].f.norm() * c.L() < 1e-6 * M); // measured 4e-8 M
   }
 }
 
-TEST_CASE("A cantilever of bonded spheres swings at the lowest frequency of its springs",
-          "[verification][dem]")
+TEST_CASE(
+    "A cantilever of bonded particles oscillates at the lowest frequency of its springs",
+    "[verification][dem]")
 {
   for (const int n : {4, 8, 16}) {
     Cantilever c(n, 0.0);
     const Mode mode = lowest_mode(c);
     const double tip_speed = 1e-6 * d * mode.omega;
-    const auto sphere = [&](std::size_t k) -> Body& { return c.s.p.body[k + 1]; };
+    const auto sphere = [&](std::size_t k) -> ParticleState& { return c.s.p.state[k + 1]; };
     for (std::size_t k = 0; k < mode.shape.size(); ++k) {
       sphere(k).v.y() = tip_speed * mode.shape[k].y;
       sphere(k).omega.z() = tip_speed * mode.shape[k].theta;
@@ -280,26 +281,26 @@ TEST_CASE("A cantilever of bonded spheres swings at the lowest frequency of its 
     const double measured = 2.0 * pi * n_periods / (last - first);
     const double leapfrog = std::pow(mode.omega * c.dt, 2) / 24.0;
     CAPTURE(n, measured / mode.omega - 1.0, leapfrog);
-    // Measured 1.6e-6, 1.3e-7 and 8.9e-9, the leapfrog's own to 1 %.
+    // Measured 1.6e-6, 1.3e-7 and 8.9e-9: the error of the leapfrog to 1 %.
     CHECK(measured / mode.omega - 1.0 == Approx(leapfrog).epsilon(0.02));
     CHECK(leapfrog < 2e-6);
   }
 }
 
 TEST_CASE(
-    "With many spheres the cantilever's frequency tends to Timoshenko's beam, and with "
-    "its length to Euler and Bernoulli's",
+    "With more particles the frequency of a cantilever tends to Timoshenko's, and with its "
+    "length to Euler and Bernoulli's",
     "[verification][dem]")
 {
   const Frequencies coarse = frequencies(32), fine = frequencies(64);
   const auto discrete = [](const Frequencies& f) { return f.springs / f.with_tip - 1.0; };
   CAPTURE(coarse.springs, discrete(coarse), discrete(fine));
-  // The last sphere reaches half its size beyond L. With that half as a body at the tip the
-  // springs meet the beam to second order: -2.4e-4, -6.3e-5.
+  // The last particle extends by half its size beyond L. With that half as a tip mass the
+  // springs agree with the beam to second order: -2.4e-4, -6.3e-5.
   CHECK(std::abs(discrete(fine)) < 7e-5);
   CHECK(discrete(coarse) / discrete(fine) == Approx(4.0).epsilon(0.05));
-  // Without it they lag by 1/n: half a sphere at the tip, where the mode has four times its
-  // mean square.
+  // Without it they are slower by 1/n: half a particle at the tip, where the square of the
+  // mode is four times its mean.
   CHECK(64.0 * (fine.springs / fine.timoshenko - 1.0) == Approx(-1.0).epsilon(0.02));
   // Shear and rotary inertia lower Euler and Bernoulli's frequency by 4.648/2 times their
   // sum, to first order in it. 4.648 = L^2 int w'^2/int w^2 of the mode, and the same of

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double R = 0.03, d = 2.0 * R;
 
-/// A free row of 2 n + 1 bonded spheres along x, the middle one at 0.
+/// A free row of 2 n + 1 bonded particles along x, the middle one at 0.
 Scene row(int n)
 {
   Scene s;
@@ -28,7 +28,7 @@ double bar_stiffness()
 {
   Scene s = row(5);
   const double strain = 1e-7;
-  for (Body& b : s.p.body) b.x *= 1.0 + strain;
+  for (ParticleState& b : s.p.state) b.x *= 1.0 + strain;
   s.forces(0.0);
   return s.p.load[0].f.x() / strain;
 }
@@ -36,24 +36,25 @@ double bar_stiffness()
 /// Bar velocity sqrt(E A/(m/d)) [m/s].
 double bar_velocity()
 {
-  return std::sqrt(bar_stiffness() * d / row(0).p.body[0].m);
+  return std::sqrt(bar_stiffness() * d / row(0).p.state[0].m);
 }
 
-/// Speed of a pulse let go at rest as exp(-(x/width)^2/2): how far the centre of its right
-/// half, weighted by u^2, moves between 100 and 200 diameters. A step is `courant` d/c.
+/// Speed [m/s] of a pulse released at rest with displacements exp(-(x/width)^2/2): motion
+/// of the centre of its right half, weighted by u^2, between 100 and 200 diameters. A step
+/// is `courant` d/c.
 double pulse_speed(double width, double courant)
 {
   Scene s = row(280);
   const double c = bar_velocity(), dt = courant * d / c;
   std::vector<double> x_0;
-  for (Body& b : s.p.body) {
+  for (ParticleState& b : s.p.state) {
     x_0.push_back(b.x.x());
     b.x.x() += 1e-4 * d * std::exp(-0.5 * std::pow(b.x.x() / width, 2));
   }
   const auto centre = [&] {
     double moment = 0.0, weight = 0.0;
     for (std::size_t i = s.p.size() / 2; i < s.p.size(); ++i) {
-      const double u2 = std::pow(s.p.body[i].x.x() - x_0[i], 2);
+      const double u2 = std::pow(s.p.state[i].x.x() - x_0[i], 2);
       moment += u2 * x_0[i];
       weight += u2;
     }
@@ -72,7 +73,7 @@ double pulse_speed(double width, double courant)
 
 } // namespace
 
-TEST_CASE("A chain of bonded spheres swings at omega = 2 sqrt(k/m) sin(kappa d/2)",
+TEST_CASE("A chain of bonded particles oscillates at omega = 2 sqrt(k/m) sin(kappa d/2)",
           "[verification][dem]")
 {
   // Born and von Karman (1912): standing wave of wave number kappa = 2 pi j/(n d) on a
@@ -86,12 +87,12 @@ TEST_CASE("A chain of bonded spheres swings at omega = 2 sqrt(k/m) sin(kappa d/2
     const double kappa = 2.0 * pi * j / (n * d);
     for (Index i = 0; i < n; ++i) {
       s.p.add(sphere({d * i, 0, 0}, R));
-      s.p.body[i].v.x() = 1e-3 * std::cos(kappa * d * i);
+      s.p.state[i].v.x() = 1e-3 * std::cos(kappa * d * i);
       if (i + 1 < n) pairs.push_back({i, i + 1});
     }
     pairs.insert(pairs.begin() + 1, {0, n - 1, {-1, 0, 0}});
     s.bond(pairs);
-    const double k = 400e6 * pi * R * R / 9.0 / d, m = s.p.body[0].m;
+    const double k = 400e6 * pi * R * R / 9.0 / d, m = s.p.state[0].m;
     const double omega = 2.0 * std::sqrt(k / m) * std::sin(0.5 * kappa * d);
     const double dt = 0.02 / omega;
     s.start(dt);
@@ -100,7 +101,7 @@ TEST_CASE("A chain of bonded spheres swings at omega = 2 sqrt(k/m) sin(kappa d/2
     for (int step = 1; zeros <= 8; ++step) {
       s.step(dt);
       double v = 0.0; // amplitude of the mode at t = step dt + dt/2
-      for (Index i = 0; i < n; ++i) v += s.p.body[i].v.x() * std::cos(kappa * d * i);
+      for (Index i = 0; i < n; ++i) v += s.p.state[i].v.x() * std::cos(kappa * d * i);
       if (before < 0.0 && v >= 0.0) {
         last = dt * (step - v / (v - before));
         if (zeros++ == 0) first = last;
@@ -111,14 +112,14 @@ TEST_CASE("A chain of bonded spheres swings at omega = 2 sqrt(k/m) sin(kappa d/2
     // less the leapfrog's (omega dt)^2/24
     CHECK((last - first) / 8.0 * omega / (2.0 * pi) ==
           Approx(1.0 - 0.02 * 0.02 / 24.0).epsilon(1e-6));
-    CHECK(s.p.body[3].v.y() == 0.0);
-    CHECK(s.p.body[3].omega.norm() == 0.0);
+    CHECK(s.p.state[3].v.y() == 0.0);
+    CHECK(s.p.state[3].omega.norm() == 0.0);
   }
 }
 
 TEST_CASE(
-    "A pulse runs along a chain of bonded spheres at d sqrt(k/m) = sqrt(E/rho), the less "
-    "the shorter it is",
+    "A pulse travels along a chain of bonded particles at d sqrt(k/m) = sqrt(E/rho), and "
+    "more slowly the shorter it is",
     "[verification][dem]")
 {
   const auto bond = unbreakable_bond();
@@ -127,7 +128,7 @@ TEST_CASE(
   const double c = bar_velocity();
   // Born and von Karman (1912): omega = 2 sqrt(k/m) sin(kappa d/2) has the group velocity
   // c cos(kappa d/2). Weighted by the spectrum exp(-(kappa width)^2) of u^2, whose mean
-  // kappa^2 is 1/(2 width^2), the pulse lags by d^2/(16 width^2). The leapfrog takes back
+  // kappa^2 is 1/(2 width^2), the pulse lags by d^2/(16 width^2). The leapfrog compensates
   // (c dt/d)^2 of that; at c dt = d it has no dispersion.
   const double courant = 0.2;
   const auto lag = [&](double width) { return 1.0 - pulse_speed(width * d, courant) / c; };

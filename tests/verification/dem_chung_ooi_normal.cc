@@ -11,8 +11,8 @@ using namespace mergel::dem::test::chung_ooi;
 
 namespace {
 
-/// A normal impact, each over its closed form without damping; force_error is the largest
-/// distance from the half sine, over the peak.
+/// Results of a normal impact, each over its closed form without damping; force_error is
+/// the largest distance from the half sine, over the peak.
 struct Normal {
   double duration, peak_force, peak_overlap, restitution, force_error;
 };
@@ -39,7 +39,7 @@ Normal measure(const Impact& c, const Resolution& how)
   return m;
 }
 
-/// Largest error of all five, wherever in a step the touch falls.
+/// Largest error of all five, for first contacts at several instants of a step.
 double largest_error(const Impact& c, double n)
 {
   double e = 0.0;
@@ -67,8 +67,8 @@ void check_half_sine(const Impact& c)
 } // namespace
 
 TEST_CASE(
-    "Chung and Ooi 1: two equal spheres repel with a half sine of pi sqrt(m*/k_n) and "
-    "part at their speed",
+    "Chung and Ooi 1: two equal particles repel with a half sine of pi sqrt(m*/k_n) and "
+    "separate at their speed",
     "[verification][dem]")
 {
   for (const Solid& solid : {glass, limestone})
@@ -76,8 +76,8 @@ TEST_CASE(
         impact_of(solid, 0.35, {0.01, solid.rho, 10.0}, Ball{0.01, solid.rho, -10.0}));
 }
 
-TEST_CASE("Chung and Ooi 2: a plane repels a sphere with a half sine of pi sqrt(m/k_n) and "
-          "gives its speed back",
+TEST_CASE("Chung and Ooi 2: a plane repels a particle with a half sine of pi sqrt(m/k_n) "
+          "and returns its speed",
           "[verification][dem]")
 {
   const Solid alloy{70e9, 0.30, 2699.0}; // the aluminium of this test is not that of others
@@ -89,8 +89,8 @@ TEST_CASE("Chung and Ooi 3: local damping alpha gives a restitution of "
           "sqrt((1-alpha)/(1+alpha))",
           "[verification][dem]")
 {
-  // Theirs is a dashpot, which we have not. Damping makes the spring (1+alpha) k_n while it
-  // stops the sphere and (1-alpha) k_n while it throws it back:
+  // The article has a dashpot, dem/ has not. Local damping makes the spring (1+alpha) k_n
+  // while it stops the particle and (1-alpha) k_n while it accelerates it again:
   //   m v^2/2 = (1+alpha) k_n d^2/2,   m v'^2/2 = (1-alpha) k_n d^2/2
   // and the two quarters of a period last pi/2 sqrt(m/((1 +- alpha) k_n)).
   for (const Solid& solid : {aluminium_oxide, cast_iron})
@@ -112,8 +112,9 @@ TEST_CASE("Chung and Ooi 3: local damping alpha gives a restitution of "
       const auto coarse = errors(100.37), fine = errors(1000.37);
       CAPTURE(e, coarse, fine);
       // Second order in speed and overlap, measured at T/1000: 3.8e-5 of the speed at
-      // e = 0.2, 8e-7 at e = 1. The damping turns its sign in the step after the sphere
-      // turns, which is first order in time: 1.0e-2 at e = 0.2, where the rebound is slow.
+      // e = 0.2, 8e-7 at e = 1. The damping changes its sign in the step after the particle
+      // reverses, an error of first order in time: 1.0e-2 at e = 0.2, where the rebound is
+      // slow.
       CHECK(fine[0] < 4e-5);
       CHECK(coarse[0] / fine[0] > 50.0);
       CHECK(fine[1] < 1.1e-2);

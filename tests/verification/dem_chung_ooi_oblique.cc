@@ -1,8 +1,8 @@
 // Tests 4 to 8 of Chung & Ooi (2011), oblique impacts and impacts with spin: see
 // chung_ooi.h.
 //
-// A linear impact of solid spheres has one number, psi = |slip|/(mu v_n), and kappa. With
-// 1/m_t = 7/(2 m*) the inverse mass of the touching point along t:
+// A linear impact of solid spheres depends on psi = |slip|/(mu v_n) and kappa alone. With
+// 1/m_t = 7/(2 m*) the inverse mass of the contact point along t:
 //
 //   psi < kappa              sticks from the start, slides at the end
 //   kappa < psi < 7 - kappa  slides, sticks, slides
@@ -37,8 +37,8 @@ Regime regime(const Impact& c)
 ///   v_t' = v_t -+ 2 mu v_n,
 ///   omega' = omega -+ 5 mu m* v_n/(m R) (1 - share pi delta/(4 R))
 ///
-/// The arm shrinks by its share of the overlap, 1 at a plane and 1/2 between balls. That
-/// the pair turns during the impact is left out: of order delta/R.
+/// The arm shrinks by its share of the overlap, 1 at a plane and 1/2 between particles. The
+/// rotation of the pair during the impact is left out: of order delta/R.
 Rebound after_sliding(const Impact& c)
 {
   const double way = c.slip() > 0.0 ? -1.0 : 1.0, v_n = c.v_n();
@@ -56,9 +56,9 @@ Rebound after_sliding(const Impact& c)
   return r;
 }
 
-/// After sticking throughout, mu without bound and delta/R to 0: the touching points swing
-/// as slip_0 cos(omega_t t) with omega_t^2 = 7 k_s/(2 m*), so omega_t T = pi
-/// sqrt(7/(2 kappa)). What the shear spring still holds when they part is lost.
+/// After sticking throughout, mu without bound and delta/R to 0: the slip oscillates as
+/// slip_0 cos(omega_t t) with omega_t^2 = 7 k_s/(2 m*), so omega_t T = pi
+/// sqrt(7/(2 kappa)). The energy of the shear spring at separation is lost.
 Rebound after_sticking(const Impact& c)
 {
   const double swing = pi * std::sqrt(3.5 / c.kappa);
@@ -85,8 +85,8 @@ Errors largest_errors(const std::vector<Impact>& table, double n,
   return e;
 }
 
-/// The kernel meets the equations of motion in all three regimes. Figures in the comments
-/// are the largest of tests 4 to 8, at T/1000 and in units of the speed of approach.
+/// The kernel agrees with the equations of motion in all three regimes. Numbers in the
+/// comments are the largest of tests 4 to 8, at T/1000 and over the speed of approach.
 void check_table(const std::vector<Impact>& table)
 {
   const std::vector<double> anywhere{0.1, 0.3, 0.5, 0.7, 0.9}, on_a_step{0.0};
@@ -96,9 +96,9 @@ void check_table(const std::vector<Impact>& table)
   const Errors fine_on_step = largest_errors(table, 1000.37, on_a_step);
   CAPTURE(coarse, fine, coarse_on_step, fine_on_step);
 
-  // The step in which they touch counts whole for the shear spring, though they touch in a
-  // part of it only. A spring that sticks remembers: first order, measured 4.7e-4. Where
-  // the touch falls on a step the order is two, 5.0e-6.
+  // The step of the first contact counts in full for the shear spring, though the contact
+  // exists in a part of it only. While it sticks the spring keeps this error: first order,
+  // measured 4.7e-4. With the first contact at the end of a step the order is two, 5.0e-6.
   CHECK(fine[sticks_first] < 5e-4);
   CHECK(coarse[sticks_first] / fine[sticks_first] == Approx(5.0).epsilon(0.05));
   CHECK(fine_on_step[sticks_first] < 6e-6);
@@ -112,8 +112,8 @@ void check_table(const std::vector<Impact>& table)
   CHECK(coarse[slides_throughout] / fine[slides_throughout] > 12.0);
 }
 
-/// Where it slides throughout, the kernel meets the closed form within `limit` times the
-/// speed of approach.
+/// Where the contact slides throughout, the kernel agrees with the closed form within
+/// `limit` times the speed of approach.
 template <class Limit>
 void check_sliding(const std::vector<Impact>& table, Limit&& limit)
 {
@@ -131,8 +131,8 @@ double exact(const Impact&)
 {
   return 2.5e-6;
 }
-/// The turn of the pair: measured 0.27, 0.09 and 0.18 delta/R in tests 7, 8 and 8 with free
-/// balls.
+/// The rotation of the pair: measured 0.27, 0.09 and 0.18 delta/R in tests 7, 8 and 8 with
+/// both particles free.
 double turn(const Impact& c)
 {
   return 0.3 * c.peak_overlap() / c.i.R;
@@ -143,9 +143,10 @@ const std::vector<double> spins{0.175, 0.5, 0.9, 1.3, 2.0, 3.0, 4.0, 5.0, 9.0, 2
 
 } // namespace
 
-TEST_CASE("The reference of the oblique impacts meets the closed forms of sliding and "
-          "sticking",
-          "[verification][dem]")
+TEST_CASE(
+    "The reference of the oblique impacts agrees with the closed forms of sliding and "
+    "sticking",
+    "[verification][dem]")
 {
   for (const double v_t : {10.0, -20.0, 40.0}) {
     const Impact c = impact_of(steel, 0.3, {1e-5, steel.rho, 5.0, v_t});
@@ -167,8 +168,9 @@ TEST_CASE("The reference of the oblique impacts meets the closed forms of slidin
     }
 }
 
-TEST_CASE("A sphere that cannot slide leaves with its slip times cos(pi sqrt(7/(2 kappa)))",
-          "[verification][dem]")
+TEST_CASE(
+    "A particle that cannot slide rebounds with its slip times cos(pi sqrt(7/(2 kappa)))",
+    "[verification][dem]")
 {
   const Ball ball{0.1, 2700.0, 0.2, 0.3, 1.0}, large{0.2, 2700.0, 0.0, 0.0, 3.0};
   for (const double kappa : {0.7, 1.2, 2.0})
@@ -176,8 +178,9 @@ TEST_CASE("A sphere that cannot slide leaves with its slip times cos(pi sqrt(7/(
       c.kappa = kappa;
       c.mu = 1e9;
       c.k_n = c.m_star() * std::pow(c.v_n() / (1e-6 * c.i.R), 2);
-      // The touch falls on a step and the parting amid two, where a shear force cut off in
-      // full leaves the right impulse; elsewhere up to half a step of it would be missing.
+      // The first contact is at the end of a step and the separation in the middle of one,
+      // where dropping the shear force leaves the right impulse; elsewhere up to half a
+      // step of it would be missing.
       const Rebound closed = after_sticking(c);
       double lost = 0.0;
       const auto error = [&](double n) {
@@ -189,13 +192,13 @@ TEST_CASE("A sphere that cannot slide leaves with its slip times cos(pi sqrt(7/(
       CAPTURE(kappa, coarse, fine, lost / closed.lost);
       CHECK(fine < 3e-5); // measured 2.0e-5, second order
       CHECK(coarse / fine > 15.0);
-      // The spring parts from its load within a step: first order, measured 0.8 %.
+      // The spring loses its load within a step: first order, measured 0.8 %.
       CHECK(lost == Approx(closed.lost).epsilon(0.01));
     }
 }
 
 TEST_CASE(
-    "Chung and Ooi 4: a sphere at 3.9 m/s to a plane at 5 to 85 degrees sticks, slips "
+    "Chung and Ooi 4: a particle that hits a plane at 3.9 m/s and 5 to 85 degrees sticks "
     "and slides by the equations of motion",
     "[verification][dem]")
 {
@@ -208,8 +211,9 @@ TEST_CASE(
       c.i.v_t = 3.9 * std::sin(theta);
       table.push_back(c);
       if (regime(c) != slides_throughout) continue;
-      // What they plot: restitution along t, f = 1 - mu (1+e)/tan(theta), measured to
-      // 1.2e-7; spin 5 mu (1+e) v_n/(2 R), short by the overlap, pi delta/(4 R) <= 3.2e-3.
+      // As plotted in the article: restitution along t, f = 1 - mu (1+e)/tan(theta),
+      // measured to 1.2e-7; spin 5 mu (1+e) v_n/(2 R), less by the overlap, pi delta/(4 R)
+      // <= 3.2e-3.
       const Rebound r = run(c, {1000.37});
       CHECK(r.v_t / c.v_t() == Approx(1.0 - 2.0 * c.mu / std::tan(theta)).epsilon(2e-7));
       const double shorter = pi * c.peak_overlap() / (4.0 * c.i.R);
@@ -221,8 +225,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "Chung and Ooi 5: a sphere at 5 m/s to a plane and 0.1 to 40 m/s along it sticks, "
-    "slips and slides by the equations of motion",
+    "Chung and Ooi 5: a particle that hits a plane at 5 m/s, with 0.1 to 40 m/s along it, "
+    "sticks and slides by the equations of motion",
     "[verification][dem]")
 {
   std::vector<Impact> table;
@@ -233,7 +237,7 @@ TEST_CASE(
   check_sliding(table, exact);
 }
 
-TEST_CASE("Chung and Ooi 6: a spinning sphere at a plane sticks, slips and slides by the "
+TEST_CASE("Chung and Ooi 6: a spinning particle that hits a plane sticks and slides by the "
           "equations of motion",
           "[verification][dem]")
 {
@@ -245,8 +249,8 @@ TEST_CASE("Chung and Ooi 6: a spinning sphere at a plane sticks, slips and slide
   check_sliding(table, exact);
 }
 
-TEST_CASE("Chung and Ooi 7: two equal spheres of equal spin stick, slip and slide by the "
-          "equations of motion, and of opposite spin keep it",
+TEST_CASE("Chung and Ooi 7: two equal particles of equal spin stick and slide by the "
+          "equations of motion, and those of opposite spin keep it",
           "[verification][dem]")
 {
   std::vector<Impact> table;
@@ -259,7 +263,7 @@ TEST_CASE("Chung and Ooi 7: two equal spheres of equal spin stick, slip and slid
       const Rebound equal = run(table.back());
       CHECK(equal.spin_i == Approx(equal.spin_j).epsilon(1e-13)); // none is preferred
 
-      // Theirs: opposite spins roll off each other, and nothing slips.
+      // As in the article: with opposite spins they roll on each other without slip.
       const Rebound opposite =
           run(impact_of(solid, 0.4, ball(0.2, spin), ball(-0.2, -spin)));
       CHECK(opposite.spin_i == Approx(spin).epsilon(1e-13));
@@ -270,9 +274,10 @@ TEST_CASE("Chung and Ooi 7: two equal spheres of equal spin stick, slip and slid
   check_sliding(table, turn);
 }
 
-TEST_CASE("Chung and Ooi 8: a spinning sphere at one five times as large sticks, slips and "
-          "slides by the equations of motion",
-          "[verification][dem]")
+TEST_CASE(
+    "Chung and Ooi 8: a spinning particle that hits one five times as large sticks and "
+    "slides by the equations of motion",
+    "[verification][dem]")
 {
   std::vector<Impact> table;
   for (const Solid& solid : {aluminium, nylon}) // the large one 1000 times as dense
@@ -284,11 +289,11 @@ TEST_CASE("Chung and Ooi 8: a spinning sphere at one five times as large sticks,
 }
 
 TEST_CASE(
-    "A spinning sphere at a free one of twice its size sticks, slips and slides by the "
+    "A spinning particle that hits a free one of twice its size sticks and slides by the "
     "equations of motion",
     "[verification][dem]")
 {
-  // In test 8 the large sphere is as good as fixed; here both move and both spin.
+  // In test 8 the large particle is practically fixed; here both move and both spin.
   std::vector<Impact> table;
   for (const Solid& solid : {aluminium, nylon})
     for (const double spin : spins)

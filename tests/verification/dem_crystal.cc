@@ -16,13 +16,13 @@ void set_kappa(Scene& s, double kappa)
   section(s.material.bond).kappa = kappa;
 }
 
-/// One sphere of a crystal and the neighbours it is bonded to.
+/// One particle of a crystal and the neighbours to which it is bonded.
 struct Lattice {
-  std::vector<Vec3> branches; ///< from the sphere to its neighbours, unit
-  double volume;              ///< of the cell of one sphere [m^3]
+  std::vector<Vec3> branches; ///< from the particle to its neighbours, unit
+  double volume;              ///< of the cell of one particle [m^3]
 };
 
-/// Twelve neighbours; cell edge a = sqrt(2) d, four spheres a cell.
+/// Twelve neighbours; cell edge a = sqrt(2) d, four particles per cell.
 Lattice face_centred()
 {
   Lattice l{{}, std::pow(std::sqrt(2.0) * d, 3) / 4.0};
@@ -45,7 +45,7 @@ Lattice simple_cubic()
 struct Crystal {
   Lattice lattice;
   double kappa; ///< of the bonds
-  Mat3 turn;    ///< of the crystal in space
+  Mat3 turn;    ///< rotation of the crystal in space
   int n_steps;  ///< in which it is strained
 
   struct Stiffness {
@@ -61,7 +61,7 @@ struct Crystal {
   /// Stress per strain, tension positive, in the axes of the crystal.
   ///
   /// The neighbours move as x = (1 + eps) X, without spin. Love and Weber, each branch
-  /// shared by two cells: sigma = 1/(2 V) sum f (x) r with f the force on the sphere.
+  /// shared by two cells: sigma = 1/(2 V) sum f (x) r with f the force on the particle.
   Mat3 stress(const Mat3& direction, double strain) const
   {
     Scene s;
@@ -74,14 +74,14 @@ struct Crystal {
     s.bond(pairs);
     const double dt = 1e-5;
     const Mat3 rate = turn * direction * turn.transpose() * (strain / (n_steps * dt));
-    for (Body& b : s.p.body) b.v = rate * b.x;
+    for (ParticleState& b : s.p.state) b.v = rate * b.x;
     for (int k = 0; k < n_steps; ++k) {
       drift(s.p, dt);
       s.forces(dt);
     }
     Mat3 sigma = Mat3::Zero();
     for (std::size_t j = 1; j < s.p.size(); ++j)
-      sigma -= s.p.load[j].f * s.p.body[j].x.transpose() / (2.0 * lattice.volume);
+      sigma -= s.p.load[j].f * s.p.state[j].x.transpose() / (2.0 * lattice.volume);
     return turn.transpose() * sigma * turn / strain;
   }
 };
@@ -99,16 +99,16 @@ Mat3 shear()
   e(0, 1) = e(1, 0) = 0.5;
   return e;
 }
-/// Largest shear stress that the crystal's mirrors forbid.
+/// Largest shear stress that must vanish by the mirror symmetry of the crystal.
 double forbidden(const Mat3& along, const Mat3& across)
 {
   Mat3 a = along, b = across;
   a.diagonal().setZero();
-  b.diagonal().setZero(); // a shear strain pushes along the normals, in its second order
+  b.diagonal().setZero(); // a shear strain has normal stresses of second order
   b(0, 1) = b(1, 0) = 0.0;
   return std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
 }
-Mat3 skew()
+Mat3 oblique_rotation()
 {
   return Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
 }
@@ -116,15 +116,15 @@ Mat3 skew()
 } // namespace
 
 TEST_CASE(
-    "A face-centred crystal of bonded spheres without spin has C11 = 2 (k_n+k_s)/a, C12 = "
-    "(k_n-k_s)/a, C44 = (k_n+k_s)/a",
+    "A face-centred crystal of bonded particles without spin has C11 = 2 (k_n+k_s)/a, "
+    "C12 = (k_n-k_s)/a, C44 = (k_n+k_s)/a",
     "[verification][dem]")
 {
   // Sum over the twelve branches n of a strain eps, with V = a^3/4 and a = sqrt(2) d:
   //   sigma = d^2/(2 V) sum [(k_n - k_s) (n.eps.n) n (x) n + k_s (eps.n) (x) n]
   const double a = std::sqrt(2.0) * d;
   for (const double kappa : {1.0, 1.7, 4.0})
-    for (const Mat3& turn : {Mat3(Mat3::Identity()), skew()})
+    for (const Mat3& turn : {Mat3(Mat3::Identity()), oblique_rotation()})
       for (const int n_steps : {1, 10}) {
         const Crystal c{face_centred(), kappa, turn, n_steps};
         const auto [k_n, k_s] = c.stiffness();
@@ -142,7 +142,7 @@ TEST_CASE(
         CAPTURE(kappa, n_steps, coarse, fine);
         // Of first order in the strain, which lengthens the branches: 1.45 and 0.125 times
         // the strain at most. C44 is the mean of both signs: of second order, measured
-        // 2.9e-10 at 1e-4, where it nears round-off.
+        // 2.9e-10 at 1e-4, near round-off.
         CHECK(fine[0] < 1.5e-5);
         CHECK(coarse[0] / fine[0] == Approx(10.0).epsilon(0.01));
         CHECK(fine[1] < 1.3e-6);
@@ -152,13 +152,12 @@ TEST_CASE(
       }
 }
 
-TEST_CASE(
-    "A simple cubic crystal of bonded spheres without spin has E = k_n/d, no C12 and C44 = "
-    "k_s/(2 d)",
-    "[verification][dem]")
+TEST_CASE("A simple cubic crystal of bonded particles without spin has E = k_n/d, C12 = 0, "
+          "C44 = k_s/(2 d)",
+          "[verification][dem]")
 {
   for (const double kappa : {1.0, 1.7, 4.0})
-    for (const Mat3& turn : {Mat3(Mat3::Identity()), skew()}) {
+    for (const Mat3& turn : {Mat3(Mat3::Identity()), oblique_rotation()}) {
       const Crystal c{simple_cubic(), kappa, turn, 10};
       const auto [k_n, k_s] = c.stiffness();
       const auto error = [&, k_n = k_n](double strain) { // no C12, so C11 = E

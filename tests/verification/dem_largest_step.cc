@@ -20,7 +20,7 @@ Scene spring(Shape shape, double alpha, double kappa)
   s.p.add(sphere({R, 0, 0}, R));
   s.bond({{0, 1}});
   const double v = 1e-6;
-  Body &i = s.p.body[0], &j = s.p.body[1];
+  ParticleState &i = s.p.state[0], &j = s.p.state[1];
   if (shape == Shape::stretch) {
     i.v.x() = -v;
     j.v.x() = v;
@@ -35,7 +35,7 @@ Scene spring(Shape shape, double alpha, double kappa)
   return s;
 }
 
-/// Does the motion stay bounded over 4000 steps of `factor` times the step at safety 1?
+/// True if the motion stays bounded over 4000 steps of `factor` times the step at safety 1.
 bool is_stable(Shape shape, double alpha, double kappa, double factor)
 {
   Scene s = spring(shape, alpha, kappa);
@@ -66,16 +66,16 @@ double largest(Shape shape, double alpha, double kappa)
 
 } // namespace
 
-TEST_CASE("The step of safety 1 is the largest stable one of two spheres on a spring",
+TEST_CASE("The step of safety 1 is the largest stable one of two particles on a spring",
           "[verification][dem]")
 {
   // omega^2 = 2 k/m and stability to omega dt = 2: dt = sqrt(2 m/k), the bound itself.
-  // A soft shear leaves the stretching alone to decide.
+  // With a soft shear spring the normal spring decides alone.
   CHECK(is_stable(Shape::stretch, 0.0, 20.0, 0.999));
   CHECK_FALSE(is_stable(Shape::stretch, 0.0, 20.0, 1.001));
 }
 
-TEST_CASE("Bending and shearing of two spheres allow more than the step of safety 1",
+TEST_CASE("Bending and shearing of two particles allow more than the step of safety 1",
           "[verification][dem]")
 {
   CAPTURE(largest(Shape::bend, 0.0, 2.0), largest(Shape::shear, 0.0, 1.0));

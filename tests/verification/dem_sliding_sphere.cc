@@ -14,7 +14,7 @@ TEST_CASE("A sliding sphere rolls after 2 v0/(7 mu g) at 5/7 v0", "[verification
   const double R = 10e-3, g = 9.81, v_0 = 0.5;
   Scene s;
   s.p.add(sphere({0, 0, R}, R));
-  Body& b = s.p.body[0];
+  ParticleState& b = s.p.state[0];
   const double k_n = law.E * pi * R;
   b.x.z() -= b.m * g / k_n; // at rest on the plane
   b.v.x() = v_0;
@@ -23,7 +23,7 @@ TEST_CASE("A sliding sphere rolls after 2 v0/(7 mu g) at 5/7 v0", "[verification
   const Plane plane{};
   SurfaceContacts contacts;
   contacts.rebuild(s.p, 0.0, 1e-3, Vec3::Zero(),
-                   [&](const Body& q) { return plane.touch(q).gap; });
+                   [&](const ParticleState& q) { return plane.contact_geometry(q).gap; });
   REQUIRE(contacts.contacts().size() == 1);
   s.add_more = [&](double dt) {
     add_plane_forces(law, plane, dt, s.p, contacts, s.losses);
@@ -38,7 +38,7 @@ TEST_CASE("A sliding sphere rolls after 2 v0/(7 mu g) at 5/7 v0", "[verification
     s.step(dt);
     const double f_s = contacts.contacts()[0].f_s.norm();
     if (t_stick == 0.0 && step > 100 && f_s < 0.99 * law.mu * b.m * g) t_stick = step * dt;
-    if (step > 0.8 * n) { // the shear spring swings about its rest: average
+    if (step > 0.8 * n) { // the shear spring oscillates: average
       v_mean += b.v.x();
       spin_mean += b.omega.y();
       ++n_mean;

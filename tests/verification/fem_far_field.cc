@@ -1,4 +1,5 @@
-// The far field as the coupling uses it: design.md §§8, 10.
+// The far field as the coupling uses it: fem/README.md, 5. Initial stress, 8. Static
+// solution; coupling/README.md, 8. Start of a coupled run.
 #include "fem/boundary_ids.h"
 #include "fem/far_field/far_field.h"
 #include "fem/far_field/far_field_mesh.h"
@@ -21,8 +22,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// Area of half a regular polygon of 2 n sides in a circle: what a cylinder of n segments
-/// covers.
+/// Area of half a regular polygon of 2 n sides in a circle: cross-section of a half
+/// cylinder of n segments.
 double half_polygon(double R, double n)
 {
   return n * R * R / 2.0 * std::sin(pi / n);
@@ -56,7 +57,7 @@ TEST_CASE("The far field's initial stress is in equilibrium with the region's tr
 }
 
 TEST_CASE(
-    "Pressure on the interface: damped steps end at the static solution, books closed",
+    "Pressure on the interface: damped steps end at the static solution, energy balanced",
     "[verification][fem]")
 {
   FarFieldSpec spec = small_chamber();
@@ -71,7 +72,7 @@ TEST_CASE(
       f[static_cast<std::size_t>(a)] -= 1e6 / 3.0 * area; // out of the region
   }
   field.solve_static(f);
-  const Nodal exact = field.motion().u;
+  const NodalField exact = field.motion().u;
   std::vector<Vec3> u;
   field.interface_displacement(u);
   double outwards = 0.0;
@@ -87,9 +88,9 @@ TEST_CASE(
   CHECK((moving.motion().u - exact).abs().maxCoeff() < 1e-6 * exact.abs().maxCoeff());
 
   const Energies e = moving.energies();
-  const double books = e.kinetic + e.strain - e.interface_work - e.gravity_work -
-                       e.initial_stress_work + e.damping;
-  CHECK(std::abs(books) < 1e-11 * e.interface_work);
+  const double unbalanced_energy = e.kinetic + e.strain - e.interface_work -
+                                   e.gravity_work - e.initial_stress_work + e.damping;
+  CHECK(std::abs(unbalanced_energy) < 1e-11 * e.interface_work);
   CHECK(e.damping > 0.0);
 }
 
@@ -110,7 +111,7 @@ TEST_CASE("The multigrid solution is the direct one", "[verification][fem]")
   CHECK(iterated.iterations < 60);
   CHECK(iterated.residual < 2e-12);
 
-  // The base, not held: no static solution, and the solver says so.
+  // Without supports there is no static solution, and the solver throws.
   const ElasticSolid loose(mesh, {{1.1e9, 0.14}, 1227.0, Vec3(0.0, 0.0, -9.81), {}}, {});
   CHECK_THROWS_AS(solve_static(loose.discrete(), loose.discrete().f_gravity),
                   std::runtime_error);

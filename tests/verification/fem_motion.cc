@@ -1,5 +1,5 @@
-// The explicit motion of fem/ against closed forms: design.md §§5, 8, ladder items 1
-// and 15.
+// The explicit motion of fem/ against closed forms: fem/README.md, 6. Explicit step,
+// 7. Stable step, 10. Energy.
 #include "tests/verification/fem_solids.h"
 
 #include "fem/solid/leapfrog.h"
@@ -17,9 +17,9 @@ namespace {
 
 using std::numbers::pi;
 
-Nodal zero(const ElasticSolid& solid)
+NodalField zero(const ElasticSolid& solid)
 {
-  return Nodal::Zero(4, static_cast<Eigen::Index>(solid.discrete().n_nodes()));
+  return NodalField::Zero(4, static_cast<Eigen::Index>(solid.discrete().n_nodes()));
 }
 
 double balance(const Energies& e)
@@ -31,7 +31,7 @@ double balance(const Energies& e)
 } // namespace
 
 // Kolsky (1963), Stress Waves in Solids: plane dilatational wave, c^2 = (lambda + 2 G)/rho.
-TEST_CASE("A constrained bar swings at the P wave speed sqrt((lambda + 2 G)/rho)",
+TEST_CASE("A constrained bar oscillates at the P wave speed sqrt((lambda + 2 G)/rho)",
           "[verification][fem]")
 {
   const Elastic e{1.1e9, 0.14};
@@ -52,11 +52,11 @@ TEST_CASE("A constrained bar swings at the P wave speed sqrt((lambda + 2 G)/rho)
     // Released from its first mode; u = 0 at a quarter of the period. v at -dt/2 is that of
     // the mode, v = -u_0 omega sin(-omega dt/2).
     const double dt = 0.5 * h / c, omega = 2.0 * pi / period;
-    const Nodal mode = sample(bar, [&](const Vec3& x) {
+    const NodalField mode = sample(bar, [&](const Vec3& x) {
       return Vec3(1e-6 * std::sin(pi * x.x() / (2.0 * L)), 0.0, 0.0);
     });
     Leapfrog motion(bar.discrete(), 0.0, {});
-    Motion start = motion.motion();
+    NodalMotion start = motion.motion();
     start.u = mode;
     start.v = mode * (omega * std::sin(omega * dt / 2.0));
     motion.restore(start);
@@ -73,8 +73,8 @@ TEST_CASE("A constrained bar swings at the P wave speed sqrt((lambda + 2 G)/rho)
     return std::abs(4.0 * crossing / period - 1.0);
   };
   const double coarse = error(8), fine = error(16);
-  // Lumped linear elements and leapfrog at a Courant number of 1/2 are slow by (k h)^2/24
-  // (1 - 1/4) = 3.0e-4 at 16 cells.
+  // Lumped linear elements and leapfrog at a Courant number of 1/2 are too slow by
+  // (k h)^2/24 (1 - 1/4) = 3.0e-4 at 16 cells.
   CHECK(fine == Approx(std::pow(pi / 32.0, 2) / 32.0).epsilon(0.05));
   CHECK(std::log2(coarse / fine) == Approx(2.0).margin(0.1));
 }
@@ -88,7 +88,7 @@ TEST_CASE("Local damping slows a free fall to g (1 - alpha) t", "[verification][
   Leapfrog motion(block.discrete(), alpha, {});
   const int n = 100;
   for (int i = 0; i < n; ++i) motion.step(dt, {});
-  // The first kick meets v = 0, where damping has no direction.
+  // The first kick starts from v = 0, which is not damped.
   const double v = -g * dt * (1.0 + (1.0 - alpha) * (n - 1));
   CHECK(motion.motion().v.row(2).minCoeff() == Approx(v).epsilon(1e-12));
   CHECK(motion.motion().v.row(2).maxCoeff() == Approx(v).epsilon(1e-12));
@@ -115,7 +115,7 @@ TEST_CASE("Damped motion of a loaded rod ends at F L/(E A)", "[verification][fem
     CHECK(motion.motion().u(0, a) == Approx(F * L / (E * side * side)).epsilon(1e-8));
 }
 
-TEST_CASE("The energy books close to round-off at a constant time step",
+TEST_CASE("The energy is balanced to round-off at a constant time step",
           "[verification][fem]")
 {
   dealii::Triangulation<3> mesh;
@@ -148,10 +148,10 @@ TEST_CASE("The energy books close to round-off at a constant time step",
     CHECK((alpha == 0.0) == (e.damping == 0.0));
     CHECK(std::abs(balance(e)) < 1e-12 * size); // measured 2e-15 of it
 
-    // After a change of dt the documented error, once.
-    const Motion before = motion.motion();
+    // A change of dt leaves the error of fem/README.md, 10. Energy, once.
+    const NodalMotion before = motion.motion();
     motion.step(0.8 * dt, f);
-    const Nodal kick = motion.motion().v - before.v;
+    const NodalField kick = motion.motion().v - before.v;
     const double expected = (0.8 - 1.0) * dt / 4.0 * dot(motion.motion().Ku, kick);
     CHECK(balance(motion.energies()) - balance(e) ==
           Approx(expected).epsilon(1e-6).margin(1e-13 * size));
@@ -165,17 +165,18 @@ TEST_CASE("Damped motion ends at the static solution", "[verification][fem]")
   const ElasticSolid block(mesh, {{1e9, 0.25}, 1000.0, Vec3(0.0, 0.0, -9.81), {}},
                            {{x_low, Support::fixed}, {y_low, Support::roller}});
   const auto loaded = block.nodes_on(x_high);
-  const Nodal load = traction_forces(block, x_high, [](const Vec3& x, const Vec3&) {
+  const NodalField load = traction_forces(block, x_high, [](const Vec3& x, const Vec3&) {
     return Vec3(1e5 * x.z(), 2e4, -3e4);
   });
-  const Nodal exact = solve_static(block.discrete(), load + block.discrete().f_gravity).u;
+  const NodalField exact =
+      solve_static(block.discrete(), load + block.discrete().f_gravity).u;
 
   Leapfrog motion(block.discrete(), 0.7, loaded);
   const double dt = 0.7 * 2.0 / largest_frequency(block.discrete()) / std::sqrt(1.7);
   for (int i = 0; i < 6000; ++i) motion.step(dt, pick(load, loaded));
   CHECK((motion.motion().u - exact).abs().maxCoeff() < 1e-8 * exact.abs().maxCoeff());
 
-  // And stays there when started from it.
+  // A motion that starts from it stays there.
   motion.rest_at(exact, pick(load, loaded));
   CHECK(motion.unbalanced_ratio() < 1e-11); // solver tolerance 1e-12
 }
@@ -190,7 +191,7 @@ TEST_CASE("Leapfrog is stable just below 2/omega_max and not just above",
   const double limit = 2.0 / largest_frequency(block.discrete());
   const auto growth = [&](double share) {
     Leapfrog motion(block.discrete(), 0.0, {});
-    Motion start = motion.motion();
+    NodalMotion start = motion.motion();
     for (Eigen::Index a = 0; a < start.u.cols(); ++a)
       start.u.col(a).head<3>() =
           (block.discrete().P[static_cast<std::size_t>(a)] *
@@ -203,7 +204,7 @@ TEST_CASE("Leapfrog is stable just below 2/omega_max and not just above",
   CHECK(growth(0.999) < 100.0);
   CHECK(growth(1.001) > 1e6);
 
-  // Springs to ground lower the limit as sqrt(1 + k/k_0) would: a stiff one rules alone.
+  // Springs to ground lower the limit as sqrt(1 + k/k_0) would: a stiff one decides alone.
   const auto n = static_cast<Eigen::Index>(block.discrete().n_nodes());
   const double k = 1e13;
   const double omega = largest_frequency(block.discrete(), Eigen::ArrayXd::Constant(n, k));
@@ -214,7 +215,7 @@ TEST_CASE("Leapfrog is stable just below 2/omega_max and not just above",
   CHECK(omega == Approx(std::sqrt(k / lightest)).epsilon(1e-3));
 }
 
-TEST_CASE("A state carried to a new object goes on with the same bits",
+TEST_CASE("A state restored in a new object continues with the same bits",
           "[verification][fem]")
 {
   dealii::Triangulation<3> mesh;
@@ -234,7 +235,7 @@ TEST_CASE("A state carried to a new object goes on with the same bits",
   CHECK((one.motion().v == other.motion().v).all());
   CHECK(one.energies().damping == other.energies().damping);
 
-  Motion wrong = one.motion();
+  NodalMotion wrong = one.motion();
   wrong.u = zero(block).leftCols(3);
   CHECK_THROWS_WITH(other.restore(wrong), Catch::Contains("3 nodes"));
   CHECK_THROWS_WITH(Leapfrog(block.discrete(), 1.0, {}),

@@ -25,10 +25,10 @@ inline void make_box(const Vec3& size, const std::array<unsigned int, 3>& n,
 
 /// Nodal forces of the traction t(x, n) [Pa] on one side.
 template <class Traction>
-Nodal traction_forces(const ElasticSolid& solid, dealii::types::boundary_id id,
-                      Traction&& t)
+NodalField traction_forces(const ElasticSolid& solid, dealii::types::boundary_id id,
+                           Traction&& t)
 {
-  Nodal f = Nodal::Zero(4, static_cast<Eigen::Index>(solid.discrete().n_nodes()));
+  NodalField f = NodalField::Zero(4, static_cast<Eigen::Index>(solid.discrete().n_nodes()));
   dealii::FEFaceValues<3> values(solid.dofs().get_fe(), dealii::QGauss<2>(2),
                                  dealii::update_values | dealii::update_normal_vectors |
                                      dealii::update_quadrature_points |
@@ -52,16 +52,18 @@ Nodal traction_forces(const ElasticSolid& solid, dealii::types::boundary_id id,
 
 /// The nodal field g(x).
 template <class G>
-Nodal sample(const ElasticSolid& solid, G&& g)
+NodalField sample(const ElasticSolid& solid, G&& g)
 {
-  Nodal field = Nodal::Zero(4, static_cast<Eigen::Index>(solid.discrete().n_nodes()));
+  NodalField field =
+      NodalField::Zero(4, static_cast<Eigen::Index>(solid.discrete().n_nodes()));
   for (std::size_t a = 0; a < solid.discrete().n_nodes(); ++a)
     field.col(static_cast<Eigen::Index>(a)).head<3>() = g(solid.discrete().x[a]).array();
   return field;
 }
 
 /// Columns of the given nodes as a list of vectors.
-inline std::vector<Vec3> pick(const Nodal& field, const std::vector<std::uint32_t>& nodes)
+inline std::vector<Vec3> pick(const NodalField& field,
+                              const std::vector<std::uint32_t>& nodes)
 {
   std::vector<Vec3> list;
   for (const auto a : nodes) list.push_back(at(field, a));

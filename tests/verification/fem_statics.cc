@@ -1,4 +1,5 @@
-// The static equations of fem/ against closed forms: design.md §8, ladder item 15.
+// The static equations of fem/ against closed forms: fem/README.md, 1. Equations,
+// 3. Boundary conditions, 8. Static solution.
 #include "tests/verification/fem_solids.h"
 
 #include "fem/solver/linear_solver.h"
@@ -24,7 +25,7 @@ void make_distorted_cube(dealii::Triangulation<3>& mesh)
 
 const SolidProperties rock{{1.1e9, 0.14}, 1227.0, Vec3::Zero(), {}};
 
-double largest(const Nodal& field)
+double largest(const NodalField& field)
 {
   return field.abs().maxCoeff();
 }
@@ -32,8 +33,9 @@ double largest(const Nodal& field)
 } // namespace
 
 // Irons & Razzaque (1972): an element that passes converges.
-TEST_CASE("Patch test: a linear displacement on the border gives the exact constant stress",
-          "[verification][fem]")
+TEST_CASE(
+    "Patch test: a linear displacement of the boundary gives the exact constant stress",
+    "[verification][fem]")
 {
   dealii::Triangulation<3> mesh;
   make_distorted_cube(mesh);
@@ -46,13 +48,13 @@ TEST_CASE("Patch test: a linear displacement on the border gives the exact const
   Mat3 gradient;
   gradient << 1.0, 0.3, -0.2, 0.5, -0.7, 0.4, 0.1, 0.6, 0.2;
   gradient *= 1e-3;
-  const Nodal linear = sample(free, [&](const Vec3& x) { return Vec3(gradient * x); });
+  const NodalField linear = sample(free, [&](const Vec3& x) { return Vec3(gradient * x); });
 
-  // u = border values + w, where w vanishes on the border
-  Nodal u = linear;
+  // u = boundary values + w, where w vanishes on the boundary
+  NodalField u = linear;
   for (std::size_t a = 0; a < held.discrete().n_nodes(); ++a)
     if (!held.discrete().P[a].isZero()) u.col(static_cast<Eigen::Index>(a)).setZero();
-  Nodal Ku;
+  NodalField Ku;
   free.discrete().K.multiply(u, Ku);
   u += solve_static(held.discrete(), -Ku, StaticMethod::direct).u;
   // Measured 3e-16 of the largest displacement.
@@ -67,14 +69,14 @@ TEST_CASE("Patch test: a linear displacement on the border gives the exact const
         CHECK(stress[i][j] == Approx(sigma(i, j)).margin(1e-11 * sigma.norm()));
 }
 
-TEST_CASE("A rigid translation and a small rigid rotation of a free solid meet no force",
+TEST_CASE("A rigid translation and a small rigid rotation of a free solid cause no force",
           "[verification][fem]")
 {
   dealii::Triangulation<3> mesh;
   make_distorted_cube(mesh);
   const ElasticSolid solid(mesh, rock, {});
   const auto& K = solid.discrete().K;
-  Nodal Ku;
+  NodalField Ku;
   // Force of a strained state of the same size, for scale.
   K.multiply(sample(solid, [](const Vec3& x) { return Vec3(x.x() * x.x(), 0.0, 0.0); }),
              Ku);
@@ -96,9 +98,9 @@ TEST_CASE("A rod with nu = 0 under an end load F stretches by F L/(E A)",
   const double E = 1.1e9;
   const ElasticSolid rod(mesh, {{E, 0.0}, 1227.0, Vec3::Zero(), {}},
                          {{x_low, Support::fixed}});
-  const Nodal f = traction_forces(
+  const NodalField f = traction_forces(
       rod, x_high, [&](const Vec3&, const Vec3& n) { return Vec3(F / (side * side) * n); });
-  const Nodal u = solve_static(rod.discrete(), f).u;
+  const NodalField u = solve_static(rod.discrete(), f).u;
   for (const auto a : rod.nodes_on(x_high))
     CHECK(u(0, a) ==
           Approx(F * L / (E * side * side)).epsilon(1e-9)); // solver tolerance 1e-12
@@ -128,9 +130,9 @@ TEST_CASE("Lame's thick cylinder under inner pressure converges at second order"
                              {y_high, Support::roller},
                              {z_low, Support::roller},
                              {z_high, Support::roller}});
-    const Nodal f = traction_forces(
+    const NodalField f = traction_forces(
         ring, x_low, [&](const Vec3&, const Vec3& n) { return Vec3(-p * n); });
-    const Nodal u = solve_static(ring.discrete(), f).u;
+    const NodalField u = solve_static(ring.discrete(), f).u;
     double worst = 0.0;
     for (const auto node : ring.nodes_on(x_low))
       worst = std::max(worst, std::abs(at(u, node).norm() / exact - 1.0));
@@ -168,7 +170,8 @@ TEST_CASE("A column that settles between rollers has sigma_h = nu/(1-nu) sigma_v
   }
 }
 
-TEST_CASE("A curved roller holds the radius and lets the solid turn", "[verification][fem]")
+TEST_CASE("A curved roller holds the radius and lets the solid rotate",
+          "[verification][fem]")
 {
   using std::numbers::pi;
   dealii::Triangulation<3> mesh;
@@ -183,9 +186,11 @@ TEST_CASE("A curved roller holds the radius and lets the solid turn", "[verifica
   const auto& s = arc.discrete();
   REQUIRE(!s.oblique.empty());
 
-  const Nodal turn = sample(arc, [](const Vec3& x) { return Vec3(-x.y(), x.x(), 0.0); });
-  const Nodal swell = sample(arc, [](const Vec3& x) { return Vec3(x.x(), x.y(), 0.0); });
-  Nodal Ku;
+  const NodalField turn =
+      sample(arc, [](const Vec3& x) { return Vec3(-x.y(), x.x(), 0.0); });
+  const NodalField swell =
+      sample(arc, [](const Vec3& x) { return Vec3(x.x(), x.y(), 0.0); });
+  NodalField Ku;
   s.K.multiply(swell, Ku);
   const double scale = largest(Ku);
   s.K.multiply(turn, Ku);
@@ -198,8 +203,8 @@ TEST_CASE("A curved roller holds the radius and lets the solid turn", "[verifica
     CHECK(radial.norm() < (is_at_end ? 0.6 * length : 1e-12));
     CHECK(s.P[a].trace() == Approx(2.0));
   }
-  // Turning works against the ends alone: measured 4 % of swelling there, round-off
-  // elsewhere.
+  // Rotation causes forces at the ends alone: measured 4 % of those of swelling there,
+  // round-off elsewhere.
   for (std::uint32_t a = 0; a < s.n_nodes(); ++a) {
     const double angle = std::atan2(s.x[a].y(), s.x[a].x());
     if (angle > 0.3 * pi && angle < 0.7 * pi) CHECK(at(Ku, a).norm() < 1e-12 * scale);

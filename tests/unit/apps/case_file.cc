@@ -1,4 +1,4 @@
-/// Declaring keys: which may be left out, which exist only with another.
+/// Declaration of keys: optional and required ones, and keys that need a value of another.
 #include "tests/support/small_case.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@ using namespace mergel::apps::test;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
-TEST_CASE("A wrong declaration is the program's fault", "[unit][apps]")
+TEST_CASE("A wrong declaration is reported as an error of the program", "[unit][apps]")
 {
   CaseFile file;
   double x = -1.0;

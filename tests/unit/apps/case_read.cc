@@ -1,4 +1,4 @@
-/// A case that is read: its values, and the place and remedy of what is wrong.
+/// Reading a case: its values, and the place and remedy of each error.
 #include "tests/support/small_case.h"
 
 #include <unistd.h>
@@ -55,7 +55,7 @@ TEST_CASE("A case with carriage returns and a byte order mark reads the same",
   CHECK(read_text(dos) == read_text(good));
 }
 
-TEST_CASE("--set overrides the file and names itself in messages", "[unit][apps]")
+TEST_CASE("--set overrides the file and is named in messages", "[unit][apps]")
 {
   const WorkingFolder folder;
   const Case c = read_text(
@@ -136,7 +136,7 @@ TEST_CASE("A value is refused at the first line of a continued key", "[unit][app
              Contains("pile.prm:3: Bond/tensile strength = 1: has no unit"));
 }
 
-TEST_CASE("Unknown keys and sections are refused with the likeliest meant", "[unit][apps]")
+TEST_CASE("Unknown keys and sections are refused with the most likely name", "[unit][apps]")
 {
   const WorkingFolder folder;
   CHECK(refusal(replaced(good, "set diameter", "set diametr")) ==
@@ -169,7 +169,7 @@ TEST_CASE("A required key that is missing is refused, unless --set gives it",
   CHECK(read_text(pile_only, {"Bond/tensile strength=3 MPa"}).sigma_t == 3e6);
 }
 
-TEST_CASE("A case file of broken shape is refused at the broken line", "[unit][apps]")
+TEST_CASE("A case file with wrong syntax is refused at the wrong line", "[unit][apps]")
 {
   const WorkingFolder folder;
   CHECK(
@@ -199,7 +199,7 @@ TEST_CASE("A case file of broken shape is refused at the broken line", "[unit][a
         "pile.prm:10: Pile/diameter = 2 mm: already set in line 7. Keep one of the two.");
 }
 
-TEST_CASE("A path that is no case file is refused", "[unit][apps]")
+TEST_CASE("A path that is not a case file is refused", "[unit][apps]")
 {
   const WorkingFolder folder;
   const auto message = [](const fs::path& path) -> std::string {
@@ -253,14 +253,15 @@ TEST_CASE("where() names the line, --set or the default of a key", "[unit][apps]
                     "pile.prm:7: Pile/diameter = 1.4 mm: is wider than the specimen.");
   CHECK_THROWS_AS(file.refuse("Pile", "diameter", ""), InputError);
 
-  // a second read forgets the first
+  // a second read discards the first
   file.read("pile.prm");
   CHECK(c.side == "free");
   CHECK_FALSE(file.is_given("Far field", "side"));
 }
 
-TEST_CASE("A relative path starts at the case's folder, from --set at the working folder",
-          "[unit][apps]")
+TEST_CASE(
+    "A relative path starts at the folder of the case, from --set at the working folder",
+    "[unit][apps]")
 {
   const WorkingFolder folder;
   fs::create_directory("cases");

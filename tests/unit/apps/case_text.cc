@@ -1,4 +1,4 @@
-/// What a case says of itself: the resolved case, and the help on its keys.
+/// Text that a case writes: the resolved case, and the help on its keys.
 #include "tests/support/small_case.h"
 
 #include <sstream>
@@ -35,7 +35,7 @@ TEST_CASE("The resolved case sets every variable to the same bits", "[unit][apps
   second.write_resolved("elsewhere/resolved.prm");
   CHECK(content("elsewhere/resolved.prm") == content("resolved.prm"));
 
-  // what the program makes of the values later does not leak into the case
+  // later changes of the values by the program do not enter the resolved case
   c.sigma_t *= 1.1;
   first.write_resolved("later.prm");
   CHECK(content("later.prm") == content("resolved.prm"));

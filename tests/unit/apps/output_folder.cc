@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void touch(const fs::path& file)
+void create_file(const fs::path& file)
 {
   fs::create_directories(file.parent_path());
   std::ofstream(file) << "x";
@@ -40,7 +40,7 @@ std::vector<std::string> tree(const fs::path& folder)
   return names;
 }
 
-/// What check() and commit() say; they must agree.
+/// Message of check(); commit() must give the same one.
 std::string refusal(const fs::path& folder, Earlier earlier,
                     const std::vector<fs::path>& inputs = {})
 {
@@ -76,17 +76,17 @@ TEST_CASE("check() changes nothing and commit() makes the folder", "[unit][apps]
   output.commit();
   CHECK(tree(folder.path) ==
         std::vector<std::string>{"results", "results/pile", "results/pile/.mergel.lock"});
-  output.commit(); // an empty folder is as good as none
+  output.commit(); // an empty folder is used as a new one is
   CHECK(output.path() == folder.path / "results" / "pile");
 }
 
-TEST_CASE("A folder of other files is taken as it is", "[unit][apps]")
+TEST_CASE("A folder with other files only is used as it is", "[unit][apps]")
 {
   const TemporaryFolder folder;
-  touch(folder.path / "notes.txt");
-  touch(folder.path / "history.csv.bak");
-  touch(folder.path / "photo.png");
-  fs::create_directory(folder.path / "history.csv"); // a folder is none of mergel's files
+  create_file(folder.path / "notes.txt");
+  create_file(folder.path / "history.csv.bak");
+  create_file(folder.path / "photo.png");
+  fs::create_directory(folder.path / "history.csv"); // a folder, not a file of mergel
   const auto before = tree(folder.path);
   for (const Earlier earlier : {Earlier::keep, Earlier::overwrite}) {
     OutputFolder(folder.path, earlier).commit();
@@ -98,7 +98,7 @@ TEST_CASE("Each file of an earlier run is recognised and kept", "[unit][apps]")
 {
   for (const std::string& name : own) {
     const TemporaryFolder folder;
-    touch(folder.path / name);
+    create_file(folder.path / name);
     const auto before = tree(folder.path);
     CHECK(refusal(folder.path, Earlier::keep) ==
           "output folder " + folder.path.string() + ": holds an earlier run (" + name +
@@ -117,8 +117,8 @@ TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps
       "partial.csv",        "pile.log",       "more/history.csv",
       ".notes.partial.txt", "my_view.pvd",    "fields/notes.txt"};
   for (const auto& names : {own, others})
-    for (const std::string& name : names) touch(results / name);
-  touch(folder.path / "precious" / "data");
+    for (const std::string& name : names) create_file(results / name);
+  create_file(folder.path / "precious" / "data");
   fs::create_symlink(folder.path / "precious", results / "link");
   const auto before = tree(folder.path);
 
@@ -138,7 +138,7 @@ TEST_CASE("--overwrite removes links, never what they point to", "[unit][apps]")
 {
   const TemporaryFolder folder;
   const fs::path results = folder.path / "results";
-  touch(folder.path / "precious" / "sample.h5");
+  create_file(folder.path / "precious" / "sample.h5");
   fs::create_directory(results);
   fs::create_symlink(folder.path / "precious", results / "fields");
   fs::create_symlink(folder.path / "precious" / "sample.h5", results / "sample.h5");
@@ -152,9 +152,9 @@ TEST_CASE("--overwrite does not remove what the run is to read", "[unit][apps]")
   const TemporaryFolder folder;
   const fs::path sample = folder.path / "sample.h5",
                  field = folder.path / "fields/pile_0003.vtp";
-  touch(sample);
-  touch(field);
-  touch(folder.path / "notes.txt");
+  create_file(sample);
+  create_file(field);
+  create_file(folder.path / "notes.txt");
   const auto before = tree(folder.path);
   for (const fs::path& input : {sample, field, folder.path / "." / "sample.h5"})
     CHECK(refusal(folder.path, Earlier::overwrite, {input}) ==
@@ -166,24 +166,24 @@ TEST_CASE("--overwrite does not remove what the run is to read", "[unit][apps]")
                 {"", folder.path / "notes.txt", folder.path / "missing.h5"}) == "accepted");
 }
 
-TEST_CASE("Something in the way of the folder is named", "[unit][apps]")
+TEST_CASE("A file in place of the folder is named", "[unit][apps]")
 {
   const TemporaryFolder folder;
   const fs::path file = folder.path / "file";
-  touch(file);
+  create_file(file);
   for (const fs::path& wanted : {file, file / "results", file / "results" / "pile"})
     CHECK(refusal(wanted, Earlier::overwrite) ==
           "output folder " + wanted.string() + ": \"" + file.string() +
-              "\" is in its way and is no folder. Choose another folder with --output.");
+              "\" exists and is not a folder. Choose another folder with --output.");
   fs::create_symlink(folder.path / "nowhere", folder.path / "dangling");
   CHECK_THAT(refusal(folder.path / "dangling", Earlier::keep),
-             Contains("dangling\" is in its way and is no folder"));
+             Contains("dangling\" exists and is not a folder"));
   CHECK(refusal("", Earlier::keep) == "output folder: no name is given. Use --output DIR.");
 }
 
 TEST_CASE("A folder that cannot be written is refused before it is used", "[unit][apps]")
 {
-  // a file system that takes no folders says so only when asked for one
+  // a file system without new folders reports it only when one is made
   CHECK_THROWS_WITH(OutputFolder("/proc/mergel", Earlier::keep).commit(),
                     Contains("output folder /proc/mergel: cannot be"));
   if (geteuid() == 0) return; // root may write everywhere
@@ -193,7 +193,7 @@ TEST_CASE("A folder that cannot be written is refused before it is used", "[unit
              Contains("cannot be written: Permission denied"));
 }
 
-TEST_CASE("What a run wrote after its checkpoint is cut back, and nothing else",
+TEST_CASE("cut_back() removes what a run wrote after its checkpoint, and nothing else",
           "[unit][apps]")
 {
   const TemporaryFolder folder;
@@ -204,13 +204,13 @@ TEST_CASE("What a run wrote after its checkpoint is cut back, and nothing else",
         "fields/particles_99999999999999999999999.vtp", "fields/particles_0000.vtp",
         "fields/particles_0001.vtp", "fields/far_field_0001.vtu",
         "fields/.bonds_0001.partial.vtp", "fields/mine.vtp"})
-    touch(folder.path / file);
+    create_file(folder.path / file);
   OutputFolder out(folder.path, Earlier::go_on);
   out.check();
   out.commit();
   CHECK(tree(folder.path).size() == 17); // with fields itself and the lock
   const fs::path aside = folder.path / "checkpoint_000000000300.h5.aside";
-  CHECK(out.cut_back(1, 200) == std::vector<fs::path>{aside});
+  CHECK(out.remove_after(1, 200) == std::vector<fs::path>{aside});
   CHECK(tree(folder.path) ==
         std::vector<std::string>{
             ".mergel.lock", "checkpoint_000000000100.h5", "checkpoint_000000000200.h5",
@@ -218,8 +218,7 @@ TEST_CASE("What a run wrote after its checkpoint is cut back, and nothing else",
             "fields/particles_0000.vtp", "history.csv", "notes.txt", "resolved.prm"});
 }
 
-TEST_CASE("A checkpoint set aside leaves those set aside before as they are",
-          "[unit][apps]")
+TEST_CASE("A checkpoint set aside does not replace those set aside before", "[unit][apps]")
 {
   const TemporaryFolder folder;
   const fs::path checkpoint = folder.path / "checkpoint_000000000300.h5";
@@ -234,14 +233,14 @@ TEST_CASE("A checkpoint set aside leaves those set aside before as they are",
     std::ofstream(checkpoint) << "of " << ending;
     OutputFolder out(folder.path, Earlier::go_on);
     out.commit();
-    CHECK(out.cut_back(0, 200) == std::vector<fs::path>{beside(ending)});
+    CHECK(out.remove_after(0, 200) == std::vector<fs::path>{beside(ending)});
   }
   for (const char* ending : {".aside", ".aside-2", ".aside-3"})
     CHECK(text_of(beside(ending)) == std::string("of ") + ending);
 
-  // each of them is what an earlier run left
+  // each of them counts as a file of an earlier run
   fs::remove(beside(".aside"));
-  touch(beside(".aside-two"));
+  create_file(beside(".aside-two"));
   CHECK_THAT(refusal(folder.path, Earlier::keep),
              Contains("holds an earlier run (checkpoint_000000000300.h5.aside-2)"));
   OutputFolder(folder.path, Earlier::overwrite).commit();
@@ -255,26 +254,26 @@ TEST_CASE("A checkpoint set aside leaves those set aside before as they are",
                     Contains("holds a run with checkpoints"));
 }
 
-TEST_CASE("A run that came and went while this one was made ready is not begun again",
+TEST_CASE("A run that another process finished meanwhile is not started again",
           "[unit][apps]")
 {
   const TemporaryFolder folder;
-  touch(folder.path / "history.csv");
+  create_file(folder.path / "history.csv");
   JobOptions options;
   options.output = options.restart = folder.path;
   OutputFolder output = folder_to_begin_in(options);
   output.check();
-  touch(folder.path / "summary.json");
+  create_file(folder.path / "summary.json");
   CHECK_THROWS_WITH(output.commit(), Contains("holds a finished run"));
   CHECK(fs::exists(folder.path / "history.csv"));
 }
 
-TEST_CASE("A failed run without a checkpoint is not begun again over its results",
+TEST_CASE("A failed run without a checkpoint is not started again over its results",
           "[unit][apps]")
 {
   const TemporaryFolder folder;
-  touch(folder.path / "history.csv");
-  touch(folder.path / "failed.json");
+  create_file(folder.path / "history.csv");
+  create_file(folder.path / "failed.json");
   JobOptions options;
   options.output = options.restart = folder.path;
   CHECK_THROWS_WITH(folder_to_begin_in(options).check(), Contains("holds a failed run"));
@@ -284,7 +283,7 @@ TEST_CASE("A failed run without a checkpoint is not begun again over its results
   CHECK(tree(folder.path).empty());
 }
 
-TEST_CASE("A folder that is held before it is looked at is this run's until the end",
+TEST_CASE("A folder that is locked before its check stays locked until the run ends",
           "[unit][apps]")
 {
   const TemporaryFolder folder;
@@ -299,16 +298,17 @@ TEST_CASE("A folder that is held before it is looked at is this run's until the 
   CHECK(tree(folder.path).empty());
 }
 
-TEST_CASE("The files of a results folder are told from a user's", "[unit][apps]")
+TEST_CASE("The files of a results folder are distinguished from those of a user",
+          "[unit][apps]")
 {
   const TemporaryFolder folder;
   for (const char* file : {"notes.txt", "data.csv", "fields/mine.vtp"})
-    touch(folder.path / file);
+    create_file(folder.path / file);
   CHECK(own_files_in(folder.path).files.empty());
   CHECK(own_files_in(folder.path).frames.empty());
   for (const char* file : {".history.partial.csv", "checkpoint_000000000300.h5.aside-2",
                            "fields/bonds_0000.vtp", "fields/.bonds_0001.partial.vtp"})
-    touch(folder.path / file);
+    create_file(folder.path / file);
   const OwnFiles own = own_files_in(folder.path);
   CHECK(own.files.size() == 2);
   CHECK(own.aside ==
@@ -316,7 +316,7 @@ TEST_CASE("The files of a results folder are told from a user's", "[unit][apps]"
   CHECK(own.frames == std::vector<fs::path>{folder.path / "fields/bonds_0000.vtp"});
 }
 
-TEST_CASE("A folder where a run is writing is refused to another until it ends",
+TEST_CASE("A folder to which a run writes is refused to another run until it ends",
           "[unit][apps]")
 {
   const TemporaryFolder folder;

@@ -21,7 +21,7 @@ struct Screen {
     return {&text, is_terminal_, 79, [this] { return now; }};
   }
   /// What was written since the last call.
-  std::string take()
+  std::string taken_text()
   {
     const std::string taken = text.str();
     text.str("");
@@ -37,7 +37,7 @@ private:
 
 } // namespace
 
-TEST_CASE("Durations are told in their two largest units", "[unit][apps]")
+TEST_CASE("Durations are written in their two largest units", "[unit][apps]")
 {
   CHECK(duration_text(-1.0) == "0 s");
   CHECK(duration_text(0.4) == "0 s");
@@ -64,18 +64,18 @@ TEST_CASE("On a terminal one line is rewritten at most five times a second", "[u
   }
   CHECK(n_details >= 4); // 5 but for rounding of the clock
   CHECK(n_details <= 5);
-  CHECK(screen.take().find('\n') == std::string::npos);
+  CHECK(screen.taken_text().find('\n') == std::string::npos);
 
   screen.now = 120.0;
   progress.update(0.2, detail);
   const std::string line =
       "\rdriving   20.0 %  depth 1.15 mm (0.82 D_p)  q_c 12.3 MPa  1 min 20 s left";
-  CHECK(screen.take() == line);
+  CHECK(screen.taken_text() == line);
 
   screen.now = 130.0;
-  progress.done("q_c 12.4 MPa"); // shorter: the rest of the old line is wiped
+  progress.done("q_c 12.4 MPa"); // shorter: the rest of the old line is cleared
   const std::string last = "\rdriving  done  q_c 12.4 MPa  in 30 s";
-  CHECK(screen.take() == last + std::string(line.size() - last.size(), ' ') + "\n");
+  CHECK(screen.taken_text() == last + std::string(line.size() - last.size(), ' ') + "\n");
 }
 
 TEST_CASE("A line longer than the terminal is cut", "[unit][apps]")
@@ -84,10 +84,10 @@ TEST_CASE("A line longer than the terminal is cut", "[unit][apps]")
   Progress progress("driving", screen.output());
   screen.now += 1.0;
   progress.update(0.5, std::string(200, 'x'));
-  CHECK(screen.take().size() == 1 + 79);
+  CHECK(screen.taken_text().size() == 1 + 79);
 }
 
-TEST_CASE("Off a terminal there is a plain line every ten seconds", "[unit][apps]")
+TEST_CASE("Without a terminal a plain line is written every ten seconds", "[unit][apps]")
 {
   Screen screen(false);
   Progress progress("filling", screen.output());
@@ -96,15 +96,15 @@ TEST_CASE("Off a terminal there is a plain line every ten seconds", "[unit][apps
     progress.update(step / 500.0, "n 0.52");
   }
   // the lines come at 10, 20 and 30 s, or one step later
-  const std::string text = screen.take();
+  const std::string text = screen.taken_text();
   CHECK(std::count(text.begin(), text.end(), '\n') == 3);
   CHECK(text.find('\r') == std::string::npos);
   CHECK_THAT(text, Contains("filling   20.") && Contains(" %  n 0.52  40 s left\n"));
   progress.done();
-  CHECK(screen.take() == "filling  done  in 35 s\n");
+  CHECK(screen.taken_text() == "filling  done  in 35 s\n");
 }
 
-TEST_CASE("The time left follows a rate that changes", "[unit][apps]")
+TEST_CASE("The time left follows a change of the rate", "[unit][apps]")
 {
   Screen screen(false);
   Progress progress("driving", screen.output());
@@ -114,32 +114,32 @@ TEST_CASE("The time left follows a rate that changes", "[unit][apps]")
     fraction += step <= 20 ? 0.01 : 0.001;
     progress.update(fraction);
   }
-  // 0.38 done after 200 s: the mean rate would say 326 s, the present one says 620 s.
-  // The old rate still counts exp(-180/20), under 1 %.
-  const std::string text = screen.take();
+  // 0.38 done after 200 s: the mean rate would give 326 s, the present one gives 620 s.
+  // The old rate still has the weight exp(-180/20), below 1 %.
+  const std::string text = screen.taken_text();
   CHECK_THAT(text, EndsWith("driving   38.0 %  10 min 20 s left\n") ||
                        EndsWith("driving   38.0 %  10 min 19 s left\n"));
 }
 
-TEST_CASE("No time left is told in the first seconds, without progress, or at the end",
+TEST_CASE("No time left is shown in the first seconds, without progress, or at the end",
           "[unit][apps]")
 {
   Screen screen(true);
   Progress progress("driving", screen.output());
   screen.now += 1.0;
   progress.update(0.1);
-  CHECK(screen.take() == "\rdriving   10.0 %");
+  CHECK(screen.taken_text() == "\rdriving   10.0 %");
   screen.now += 9.0;
   progress.update(1.0);
-  CHECK(screen.take() == "\rdriving  100.0 %");
+  CHECK(screen.taken_text() == "\rdriving  100.0 %");
 
   Progress stuck("driving", screen.output());
   screen.now += 5.0;
   stuck.update(0.0);
-  CHECK(screen.take() == "\rdriving    0.0 %");
+  CHECK(screen.taken_text() == "\rdriving    0.0 %");
 }
 
-TEST_CASE("An open line is ended when the stage is left early", "[unit][apps]")
+TEST_CASE("An open line is ended when a phase ends early", "[unit][apps]")
 {
   Screen screen(true);
   {
@@ -147,9 +147,9 @@ TEST_CASE("An open line is ended when the stage is left early", "[unit][apps]")
     screen.now += 1.0;
     progress.update(0.1);
   }
-  CHECK(screen.take() == "\rdriving   10.0 %\n");
+  CHECK(screen.taken_text() == "\rdriving   10.0 %\n");
   { // nothing shown, nothing to end
     Progress progress("driving", screen.output());
   }
-  CHECK(screen.take().empty());
+  CHECK(screen.taken_text().empty());
 }

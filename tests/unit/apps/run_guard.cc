@@ -17,18 +17,18 @@ using namespace mergel::apps;
 
 namespace {
 
-/// What run_guarded() returns and prints for a body.
+/// What run_guarded() returns and prints for a task.
 struct Outcome {
   int code;
   std::string printed;
 };
 
-template <class Body>
-Outcome outcome(const Body& body)
+template <class Task>
+Outcome outcome(const Task& task)
 {
   std::ostringstream caught;
   std::streambuf* const before = std::cerr.rdbuf(caught.rdbuf());
-  const int code = run_guarded(body);
+  const int code = run_guarded(task);
   std::cerr.rdbuf(before);
   return {code, caught.str()};
 }
@@ -56,7 +56,7 @@ struct ManyLines : std::exception {
 
 } // namespace
 
-TEST_CASE("The exit code tells bad input, failure and bug apart", "[unit][apps]")
+TEST_CASE("The exit code distinguishes bad input, failure and bug", "[unit][apps]")
 {
   CHECK(outcome([] { return 0; }).code == 0);
   CHECK(outcome([] { return 0; }).printed.empty());
@@ -95,7 +95,7 @@ TEST_CASE("A library's long message becomes one line without its stack trace",
   CHECK(thrown(InputError("")).printed == "no message\n");
 }
 
-TEST_CASE("The nearest word is the one a user meant, or none", "[unit][apps]")
+TEST_CASE("nearest() finds the word that differs in few letters, or none", "[unit][apps]")
 {
   CHECK(edit_distance("kitten", "sitting") == 3);
   CHECK(edit_distance("", "abc") == 3);
@@ -106,5 +106,5 @@ TEST_CASE("The nearest word is the one a user meant, or none", "[unit][apps]")
   CHECK(nearest("cone_angel", words) == "cone angle");
   CHECK(nearest("velocity", words).empty());
   CHECK(nearest("", words).empty());
-  CHECK(nearest("xy", {"ab"}).empty()); // two letters off in two is another word
+  CHECK(nearest("xy", {"ab"}).empty()); // two wrong letters of two
 }

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A sieve curve, gone with the test.
+/// The file of a sieve curve, removed at the end.
 struct Table {
   fs::path file =
       fs::temp_directory_path() / ("mergel_sieve_" + std::to_string(::getpid()) + ".csv");
@@ -27,7 +27,7 @@ struct Table {
   }
 };
 
-/// Resolve this case and hand it over.
+/// Reads and completes a case of this text and passes it to `use`.
 template <class Use>
 void resolved(const std::string& text, Use&& use)
 {
@@ -62,8 +62,8 @@ TEST_CASE("A resolved case holds the sum of its size table and refuses a changed
   table.write("0.3");
   CHECK_THROWS_WITH(resolved(earlier, [](const CaseFile&) {}),
                     Contains("Specimen/size table sum = ") &&
-                        Contains("it was changed since this case was resolved"));
-  // Beside a checkpoint the case as first written differs by this key.
+                        Contains("it was changed after this case was resolved"));
+  // The case as first written differs from that of a checkpoint by this key.
   resolved(text, [&](const CaseFile& file) {
     const auto changes = file.changes_since(earlier);
     REQUIRE(changes.size() == 1);

@@ -30,7 +30,7 @@ TEST_CASE("A value with a decimal unit is the literal, bit for bit", "[unit][app
   CHECK(to_si("5 1/s", "s-1") == 5.0);
 }
 
-TEST_CASE("Angles and turns convert by their factor", "[unit][apps]")
+TEST_CASE("Angles and rotation rates convert by their factor", "[unit][apps]")
 {
   // udunits holds pi/180 to 2e-16 relative
   CHECK(to_si("60 degree", "rad") == Approx(std::numbers::pi / 3.0).epsilon(1e-15));
@@ -68,7 +68,7 @@ TEST_CASE("What is not a number with the right unit is refused, with the reason"
   CHECK_THAT(message("3 degC", "K"), Contains("wrong dimension"));
   CHECK_THAT(message("3 lg(re mm)", "m"), Contains("wrong dimension"));
 
-  // traps of udunits: rad, percent, steradian and 1 are one thing to it, "" is 1
+  // udunits takes rad, percent, steradian and 1 for the same unit, and "" for 1
   CHECK_THAT(message("60", "rad"), Contains("has no unit") && Contains("60 degree"));
   CHECK_THAT(message("60 percent", "rad"), Contains("wrong dimension"));
   CHECK_THAT(message("60 sr", "rad"), Contains("wrong dimension"));
@@ -112,5 +112,5 @@ TEST_CASE("with_unit() and to_si() give any double back bit for bit", "[unit][ap
     }
   }
   CHECK(n_tried > 1500);
-  CHECK(n_in_si < n_tried); // radians only where no decimal of degrees comes back
+  CHECK(n_in_si < n_tried); // radians only where no decimal in degrees is exact
 }

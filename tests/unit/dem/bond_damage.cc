@@ -8,12 +8,12 @@ using namespace mergel::dem::test;
 namespace {
 
 struct Walk {
-  double least_loss = 0.0, total_loss = 0.0;
+  double smallest_loss = 0.0, total_loss = 0.0;
   bool healed = false;
   int n_yielded = 0, n_broken = 0;
 };
 
-/// Random walks in (u_n, u_s, theta), each step at most `stride` of the motion that yields.
+/// Random walks in (u_n, u_s, theta), each step at most `stride` times the motion at yield.
 Walk walk(BendingFlow flow, double stride)
 {
   DamageBond b = bond_of_table_1();
@@ -41,7 +41,7 @@ Walk walk(BendingFlow flow, double stride)
         continue;
       }
       const BondReturn r = return_bond(b, shape, 1.0, state, q, trial);
-      w.least_loss = std::min(w.least_loss, r.loss);
+      w.smallest_loss = std::min(w.smallest_loss, r.loss);
       w.total_loss += r.loss;
       w.healed = w.healed || r.state.intact > state.intact;
       ++w.n_yielded;
@@ -63,10 +63,10 @@ TEST_CASE("Damage never decreases and the loss of a step is never negative", "[u
   CAPTURE(static_cast<int>(flow), stride, w.n_yielded, w.n_broken, w.total_loss);
   CHECK(w.n_yielded > 1000);
   CHECK_FALSE(w.healed);
-  CHECK(w.least_loss > -1e-15 * w.total_loss);
+  CHECK(w.smallest_loss > -1e-15 * w.total_loss);
 }
 
-TEST_CASE("The reversal of a plastic motion damages further", "[unit][dem]")
+TEST_CASE("A reversal of the plastic motion damages the bond further", "[unit][dem]")
 {
   // Eq. 3 as printed, with |u_n^p| instead of its accumulation, would heal this bond.
   const DamageBond b = bond_of_table_1();
@@ -84,7 +84,7 @@ TEST_CASE("The reversal of a plastic motion damages further", "[unit][dem]")
   CHECK(back.state.intact == Approx(std::exp(-1.0)).epsilon(1e-12));
 }
 
-TEST_CASE("A bond is gone for good at its damage of breakage", "[unit][dem]")
+TEST_CASE("A bond breaks for good at the damage at breakage", "[unit][dem]")
 {
   DamageBond b = bond_of_table_1();
   b.D_broken = 0.5;
@@ -96,12 +96,13 @@ TEST_CASE("A bond is gone for good at its damage of breakage", "[unit][dem]")
   CHECK(pulled(b.u_c * std::log(2.0) * 0.999).state.intact > 0.5);
   const BondReturn gone = pulled(b.u_c * std::log(2.0) * 1.001);
   CHECK(gone.state.intact == 0.0);
-  // It dropped what the damaged spring still held, less the work of the load that is gone.
+  // Released: the energy stored in the damaged spring, less the work that its load at the
+  // end of the step could not do.
   const double plastic = b.u_c * std::log(2.0) * 1.001;
   const double intact = std::exp(-std::log(2.0) * 1.001);
-  CHECK(gone.residue ==
+  CHECK(gone.breakage_release ==
         Approx(0.5 * intact * (N * N / shape.k_n - N * plastic)).epsilon(1e-12));
-  // In all: half of the step's work, which is the load's at its start, and what was stored.
-  CHECK(gone.loss + gone.residue ==
+  // In total: half of the work of the step by its first load, and the energy stored then.
+  CHECK(gone.loss + gone.breakage_release ==
         Approx(0.5 * N * plastic + 0.5 * N * N / shape.k_n).epsilon(1e-12));
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double R = 30e-3, dt = 1e-4;
 
-/// A bonded pair along x, both of whose ends move.
+/// A bonded pair along x; both ends move.
 Scene pair()
 {
   Scene s;
@@ -21,10 +21,11 @@ Scene pair()
   return s;
 }
 
-/// Stretch, shear (both turn alike, so the normal stays) or bend by one number.
+/// Stretch [m] (mode 0), shear [m] (1: both particles rotate alike, so the normal stays) or
+/// bend [rad] (2) the pair by `by`.
 BondReading strain(Scene& s, int mode, double by)
 {
-  Body &i = s.p.body[0], &j = s.p.body[1];
+  ParticleState &i = s.p.state[0], &j = s.p.state[1];
   const double turn = mode == 1 ? -by / (2.0 * R) : 0.0, bend = mode == 2 ? 0.5 * by : 0.0;
   j.v = {mode == 0 ? by / dt : 0.0, 0, 0};
   j.x += dt * j.v;
@@ -36,14 +37,14 @@ BondReading strain(Scene& s, int mode, double by)
 
 bool is_finite(const BondReturn& r)
 {
-  const double numbers[] = {r.loads.N, r.loads.T, r.state.u_p,
-                            r.loss,    r.residue, r.state.intact};
+  const double numbers[] = {r.loads.N, r.loads.T,          r.state.u_p,
+                            r.loss,    r.breakage_release, r.state.intact};
   return std::all_of(std::begin(numbers), std::end(numbers),
                      [](double x) { return std::isfinite(x); }) &&
          vec3(r.loads.V).allFinite() && vec3(r.loads.M).allFinite();
 }
 
-/// A trial `factor` times the strengths, with one load or two missing now and then.
+/// A trial `factor` times the strengths; at random one or two loads are zero.
 EffectiveLoads<double> far_trial(std::mt19937_64& random, const DamageBond& b,
                                  const BondShape<double>& s, double factor)
 {
@@ -71,8 +72,9 @@ EffectiveLoads<double> far_trial(std::mt19937_64& random, const DamageBond& b,
 
 } // namespace
 
-TEST_CASE("Fifty reversals follow a slider of the strength, and each one damages",
-          "[unit][dem]")
+TEST_CASE(
+    "In fifty reversals a bond acts as a slider of its strength, and each one damages",
+    "[unit][dem]")
 {
   // One load alone: q = k (u - u^p) within its strengths, D = 1 - exp(-sum |du^p|/u_c).
   DamageBond law = bond_of_table_1();
@@ -96,7 +98,7 @@ TEST_CASE("Fifty reversals follow a slider of the strength, and each one damages
       const int n = static_cast<int>(steps(random));
       BondReading r{};
       for (int step = 0; step < n; ++step) {
-        // the arm of the shear is half the distance: the pair never stretches here
+        // in shear the lever arm is half the distance, as the pair does not stretch then
         r = strain(s, mode, all / n);
         const double trial = q + k[mode] * all / n;
         q = std::clamp(trial, low[mode], high[mode]);
@@ -105,7 +107,7 @@ TEST_CASE("Fifty reversals follow a slider of the strength, and each one damages
       const double intact = std::exp(-plastic / scale[mode]);
       const double load = mode == 0 ? r.N : mode == 1 ? r.V.y() : r.M.z();
       CAPTURE(mode, reversal, intact);
-      // round-off of places, 1e-17 m in 0.15 mm, over some hundred steps
+      // round-off of positions, 1e-17 m in 0.15 mm, over some hundred steps
       REQUIRE(1.0 - r.D == Approx(intact).epsilon(1e-10));
       REQUIRE(load == Approx(intact * q).epsilon(1e-10));
     }
@@ -113,7 +115,7 @@ TEST_CASE("Fifty reversals follow a slider of the strength, and each one damages
   }
 }
 
-TEST_CASE("A trial a hundred to 1e12 strengths outside comes back in one step, all finite",
+TEST_CASE("A trial 1e2 to 1e12 strengths outside returns in one step, with finite numbers",
           "[unit][dem]")
 {
   std::mt19937_64 random(12);
@@ -122,7 +124,7 @@ TEST_CASE("A trial a hundred to 1e12 strengths outside comes back in one step, a
   b.kappa = GENERATE(1e-6, 2.0, 1e12);
   b.u_c = b.theta_c = GENERATE(1e-30, 1e-4, 1e20);
   const auto shape = bond_shape(b, R, 0.5 / R);
-  double worst = 0.0, least_loss = 0.0;
+  double worst = 0.0, smallest_loss = 0.0;
   bool finite = true, within = true;
   for (const double factor : {1e2, 1e4, 1e8, 1e12})
     for (int k = 0; k < 300; ++k) {
@@ -131,20 +133,20 @@ TEST_CASE("A trial a hundred to 1e12 strengths outside comes back in one step, a
       finite = finite && is_finite(r);
       within = within && r.state.intact >= 0.0 && r.state.intact <= 1.0;
       worst = std::max(worst, std::abs(yield_value(b, shape, r.loads)));
-      least_loss = std::min(least_loss, r.loss);
+      smallest_loss = std::min(smallest_loss, r.loss);
     }
   CAPTURE(static_cast<int>(b.flow), b.kappa, b.u_c);
   CHECK(finite);
   CHECK(within);
-  CHECK(worst < 1e-14); // measured 1.8e-15: the surface, whatever the trial
-  CHECK(least_loss >= 0.0);
+  CHECK(worst < 1e-14); // measured 1.8e-15: on the surface for every trial
+  CHECK(smallest_loss >= 0.0);
 }
 
-TEST_CASE("A pair that does not move keeps every bit of a bond within the surface",
+TEST_CASE("A pair that does not move keeps every bit of a bond within the yield surface",
           "[unit][dem]")
 {
   Scene s = pair();
-  s.p.body[1].x += Vec3(5e-5, 0, 0); // stretched once, at rest since
+  s.p.state[1].x += Vec3(5e-5, 0, 0); // stretched once, at rest since
   s.forces(0.0);
   const BondBlock before = s.bonds.blocks[0];
   const Load f = s.p.load[0];
@@ -159,18 +161,18 @@ TEST_CASE("A pair that does not move keeps every bit of a bond within the surfac
   CHECK(now.intact[0] == 1.0);
 }
 
-TEST_CASE("A bond held on the surface for 1e4 steps neither creeps nor loses",
+TEST_CASE("A bond held on the yield surface for 1e4 steps neither creeps nor dissipates",
           "[unit][dem]")
 {
-  // There f is a round-off away from zero and may fall to either side; the return then
-  // moves the loads by their last bit.
+  // There f differs from zero by round-off of either sign; the return then changes the last
+  // bit of the loads.
   for (int seed = 1; seed <= 4; ++seed) {
     Scene s = pair();
     s.bond_law().u_c = 5e-3;
     s.bond_law().theta_c = 0.3;
     std::mt19937_64 random(static_cast<std::uint64_t>(seed));
     const Vec3 v = 1e-5 / dt * random_vector(random), w = 1e-3 / dt * random_vector(random);
-    Body &i = s.p.body[0], &j = s.p.body[1];
+    ParticleState &i = s.p.state[0], &j = s.p.state[1];
     for (int step = 0; step < 60; ++step) {
       j.v = v;
       j.x += dt * v;
@@ -193,7 +195,7 @@ TEST_CASE("A bond held on the surface for 1e4 steps neither creeps nor loses",
   }
 }
 
-TEST_CASE("A bond soft or hard beyond reason gives finite loads and a finite history",
+TEST_CASE("An extremely soft or stiff bond gives finite loads and a finite history",
           "[unit][dem]")
 {
   const double kappa = GENERATE(1e-6, 1e12), u_c = GENERATE(1e-15, 1e15);
@@ -204,7 +206,7 @@ TEST_CASE("A bond soft or hard beyond reason gives finite loads and a finite his
   std::mt19937_64 random(2);
   bool finite = true;
   for (int step = 0; step < 300; ++step) {
-    Body &i = s.p.body[0], &j = s.p.body[1];
+    ParticleState &i = s.p.state[0], &j = s.p.state[1];
     j.v = 1e-4 / dt * random_vector(random);
     j.x += dt * j.v;
     i.omega = 1e-2 / dt * random_vector(random);
@@ -221,31 +223,31 @@ TEST_CASE("A bond soft or hard beyond reason gives finite loads and a finite his
   CHECK(s.losses.broken == (u_c < 1.0 ? 1 : 0)); // at once, or never
 }
 
-TEST_CASE("A motion that is not a number stops the run at its bond", "[unit][dem]")
+TEST_CASE("A motion that is not finite stops the run at an intact bond", "[unit][dem]")
 {
-  // No comparison holds for a NaN, so the bond is not elastic; its loss is refused by the
-  // exact sum.
+  // A comparison with a NaN is false, so the bond is not elastic; the exact sum refuses its
+  // loss.
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {std::nan(""), infinity, -infinity})
-    for (const auto member : {&Body::x, &Body::v, &Body::omega})
+    for (const auto member : {&ParticleState::x, &ParticleState::v, &ParticleState::omega})
       for (int component = 0; component < 3; ++component)
         for (std::size_t end = 0; end < 2; ++end) {
           Scene s = pair();
-          (s.p.body[end].*member)[component] = bad;
+          (s.p.state[end].*member)[component] = bad;
           CAPTURE(bad, component, end);
           CHECK_THROWS_AS(s.forces(dt), mergel::NumericalError);
         }
 }
 
-TEST_CASE("Where the bond is broken, a motion that is not a number stops the step",
+TEST_CASE("A motion that is not a number stops the step also after the bond broke",
           "[unit][dem]")
 {
-  // The force turns out not a number, and drift() or the lock of the spin refuses it.
-  for (const auto member : {&Body::x, &Body::v, &Body::omega}) {
+  // The force is then not a number; drift() or the rotation constraint throws.
+  for (const auto member : {&ParticleState::x, &ParticleState::v, &ParticleState::omega}) {
     Scene s = pair();
     strain(s, 0, 10e-3); // 67 times the yield displacement
     REQUIRE(s.losses.broken == 1);
-    (s.p.body[1].*member)[1] = std::nan("");
+    (s.p.state[1].*member)[1] = std::nan("");
     CHECK_THROWS_AS(s.step(dt), mergel::NumericalError);
   }
 }

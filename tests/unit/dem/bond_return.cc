@@ -40,7 +40,7 @@ struct Trials {
     const EnergyNorm w{decades(0, 2), decades(-1, 1), decades(0, 2)};
     return flow == BendingFlow::conjugate ? w : EnergyNorm{w.n, w.v, w.m * decades(3, 5)};
   }
-  /// As far outside as a step of a run leads, and as far as none does.
+  /// Outside by 10^low to 10^high: from a usual step of a run to far more.
   YieldPoint beyond_surface(double low, double high)
   {
     for (;;) {
@@ -62,7 +62,7 @@ double distance(const YieldPoint& a, const YieldPoint& b, const EnergyNorm& w)
   return std::sqrt(w.n * n * n + w.v * v * v + w.m * m * m);
 }
 
-/// There v <= sqrt(1 - n^2) is finer than n can tell: n resolves v to sqrt(2e-16) only.
+/// Near the tip v <= sqrt(1 - n^2) is below what n resolves: sqrt(2e-16) in v.
 bool is_at_tip(const YieldPoint& y)
 {
   return 1.0 - y.n * y.n < 1e-6;
@@ -70,7 +70,7 @@ bool is_at_tip(const YieldPoint& y)
 
 using Long = long double;
 
-/// Where a falling function of [0, infinity) meets zero.
+/// Root of a decreasing function on [0, infinity).
 template <class Function>
 Long bisected(const Function& f, Long high)
 {
@@ -81,7 +81,8 @@ Long bisected(const Function& f, Long high)
   return 0.5L * (low + high);
 }
 
-/// The conditions of the minimum in bond.h by nested bisection, in extended precision.
+/// Solves the conditions of the minimum in dem/laws/bond.h by nested bisection, in extended
+/// precision.
 struct Bisection {
   YieldPoint t;
   EnergyNorm w;
@@ -114,7 +115,8 @@ struct Bisection {
 
 } // namespace
 
-TEST_CASE("A trial up to three times outside returns to the surface", "[unit][dem]")
+TEST_CASE("A trial up to three times the strengths returns to the yield surface",
+          "[unit][dem]")
 {
   Trials trials;
   const auto flow = GENERATE(BendingFlow::conjugate, BendingFlow::published);
@@ -157,11 +159,11 @@ TEST_CASE("The returned point is the closest one in the energy norm", "[unit][de
   CHECK(worst < 1e-10);
 }
 
-TEST_CASE("From 1e-12 to 1e3 outside the return is that of a nested bisection",
+TEST_CASE("From 1e-12 to 1e3 outside, the returned point is that of a nested bisection",
           "[unit][dem]")
 {
   // Both paths of closest_point, and the edge, against the same conditions solved without
-  // a Newton.
+  // Newton's method.
   const auto flow = GENERATE(BendingFlow::conjugate, BendingFlow::published);
   const auto reach = GENERATE(std::pair{-12.0, -6.0}, std::pair{-6.0, -1.0},
                               std::pair{-1.0, 1.0}, std::pair{1.0, 3.0});
@@ -176,14 +178,15 @@ TEST_CASE("From 1e-12 to 1e3 outside the return is that of a nested bisection",
     worst = std::max(worst, off / distance(t, {0.0, 0.0, 0.0}, w));
   }
   CAPTURE(static_cast<int>(flow), reach.first);
-  // measured 3e-15, and 2e-13 as published, where the norm weighs m 1e3 times as much as v
+  // measured 3e-15; 2e-13 for the published flow, whose norm weights m 1e3 times more than
+  // v
   CHECK(worst < (flow == BendingFlow::conjugate ? 2e-14 : 1e-12));
 }
 
-TEST_CASE("Two trials never return farther apart than they were", "[unit][dem]")
+TEST_CASE("Two returned points are no farther apart than their trials", "[unit][dem]")
 {
-  // The projection onto a convex set is nonexpansive: a jump between the two paths, which
-  // neighbours may take, would show.
+  // The projection onto a convex set is nonexpansive. Two close trials may take different
+  // paths of closest_point; a jump between the paths would show here.
   const auto flow = GENERATE(BendingFlow::conjugate, BendingFlow::published);
   Trials trials;
   double worst = 0.0;
@@ -199,23 +202,26 @@ TEST_CASE("Two trials never return farther apart than they were", "[unit][dem]")
     worst = std::max(worst, grown / distance(a, {0.0, 0.0, 0.0}, w));
   }
   CAPTURE(static_cast<int>(flow));
-  CHECK(worst < 1e-12); // measured 7e-14 as published, no growth as conjugate
+  CHECK(worst <
+        1e-12); // measured 7e-14 for the published flow, no growth for the conjugate
 }
 
-TEST_CASE("A root of the conditions with a negative multiplier is not taken", "[unit][dem]")
+TEST_CASE("A root of the conditions with a negative multiplier is rejected", "[unit][dem]")
 {
-  // From here Newton for mu and h at once finds f = g = 0 with mu < 0, at m = 0.944.
+  // From this trial Newton's method in mu and h together finds f = g = 0 with mu < 0, at
+  // m = 0.944.
   const YieldPoint t{1.0, 0.3, 0.2};
   const EnergyNorm w{1.0, 10.0, 4.0};
   const YieldPoint y = closest_point(t, w);
   CHECK(distance(y, Bisection{t, w}.closest(), w) <
-        1e-14); // round-off; the false one is 1.7
+        1e-14); // round-off; the false root is 1.7 away
   CHECK(y.m < t.m);
 }
 
-TEST_CASE("The S-shaped case that makes a plain Newton cycle returns", "[unit][dem]")
+TEST_CASE("The trial at which a plain Newton iteration cycles returns to the surface",
+          "[unit][dem]")
 {
-  // f(mu) bends twice near the tip n = 1: Newton jumps between the two ends of its bracket.
+  // f(mu) is S-shaped near the tip n = 1: Newton jumps between the two ends of its bracket.
   const YieldPoint t{2.32723, 0.541848, 0.809454};
   const EnergyNorm w{8.94059, 0.987703, 31.123};
   const YieldPoint y = closest_point(t, w);
@@ -231,7 +237,8 @@ TEST_CASE("The S-shaped case that makes a plain Newton cycle returns", "[unit][d
   CHECK(worst < 1e-10);
 }
 
-TEST_CASE("Tension and bending without shear return past the tip n = 1", "[unit][dem]")
+TEST_CASE("A trial past the tip n = 1, in tension and bending without shear, returns to it",
+          "[unit][dem]")
 {
   // With v = 0 the tip n = 1 has a fan of normals: every h from 0 to 1 belongs to it.
   const YieldPoint t{2.142330124281687, 0.0, 1.4791454572125016};
@@ -243,7 +250,8 @@ TEST_CASE("Tension and bending without shear return past the tip n = 1", "[unit]
   CHECK(y.m == Approx(near.m).margin(1e-7));
 }
 
-TEST_CASE("Trials a hundred times outside, and on the axes, return", "[unit][dem]")
+TEST_CASE("Trials up to a hundred times the strengths, and on the axes, return",
+          "[unit][dem]")
 {
   Trials trials;
   double worst = 0.0;

@@ -5,11 +5,10 @@
 using namespace mergel::dem;
 using namespace mergel::dem::test;
 
-TEST_CASE("The yield function continues with value and slope across n^2 + v^2 = 1",
+TEST_CASE("The yield function and its slope are continuous across n^2 + v^2 = 1",
           "[unit][dem]")
 {
-  // One-sided differences along n and along v: a step h meets a kink as a jump of the
-  // slope.
+  // One-sided differences along n and along v: a kink would show as a jump of the slope.
   const double h = 1e-7;
   for (int k = 1; k < 60; ++k) {
     const double phi = k * pi / 120.0;
@@ -57,7 +56,8 @@ TEST_CASE("The exponent 1.001 of Eq. 5 changes f by at most 3.7e-4", "[unit][dem
   CHECK(largest < 3.7e-4);
 }
 
-TEST_CASE("The test without division or root agrees with the yield function", "[unit][dem]")
+TEST_CASE("is_elastic(), without division or root, agrees with the yield function",
+          "[unit][dem]")
 {
   const DamageBond b = bond_of_table_1();
   std::mt19937_64 random(11);
@@ -72,7 +72,7 @@ TEST_CASE("The test without division or root agrees with the yield function", "[
     const EffectiveLoads<double> q{n * strength.N, triple(strength.V * v),
                                    triple(strength.M * m)};
     const double f = yield_function({n, v.norm(), m.norm()});
-    if (std::abs(f) < 1e-12) continue; // a tie may fall either way in round-off
+    if (std::abs(f) < 1e-12) continue; // within round-off of the surface
     REQUIRE(static_cast<bool>(is_elastic(b, shape, q)) == (f < 0.0));
     (f < 0.0 ? n_inside : n_outside) += 1;
   }
@@ -80,7 +80,7 @@ TEST_CASE("The test without division or root agrees with the yield function", "[
   CHECK(n_outside > 10000);
 }
 
-TEST_CASE("An unloaded bond is elastic and no material of the user's gets past its check",
+TEST_CASE("An unloaded bond is elastic, and bond parameters out of range are refused",
           "[unit][dem]")
 {
   const DamageBond good = bond_of_table_1();

@@ -7,7 +7,8 @@
 using namespace mergel::dem;
 using namespace mergel::dem::test;
 
-TEST_CASE("A damage bond breaks of the largest term of its yield function", "[unit][dem]")
+TEST_CASE("The break mode of a damage bond is the largest term of its yield function",
+          "[unit][dem]")
 {
   const DamageBond b = bond_of_table_1();
   const auto s = bond_shape(b, 0.03, 1.0 / 0.06);
@@ -27,7 +28,7 @@ TEST_CASE("A damage bond breaks of the largest term of its yield function", "[un
   CHECK(mode(0.7, 0.4, 0.3) == BreakMode::tension);  // 0.49, 0.05, 0.3
 }
 
-TEST_CASE("A parallel bond breaks in shear, or of the greater part of its tension",
+TEST_CASE("The break mode of a parallel bond is shear or the larger part of its tension",
           "[unit][dem]")
 {
   ParallelBond b;

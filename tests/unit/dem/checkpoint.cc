@@ -3,7 +3,7 @@
 #include "dem/io/sample_file.h"
 #include "dem/io/seal.h"
 #include "dem/io/state/assembly_state.h"
-#include "tests/support/rock_with_everything.h"
+#include "tests/support/assembly_with_everything.h"
 #include "tests/support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -14,24 +14,24 @@
 
 using namespace mergel;
 using namespace mergel::dem;
-using mergel::dem::test::rock_with_everything;
+using mergel::dem::test::assembly_with_everything;
 namespace fs = std::filesystem;
 
 namespace {
 
-void step(Rock& rock)
+void step(Assembly& assembly)
 {
-  test::step_with_everything(rock, 1e-6);
+  test::step_with_everything(assembly, 1e-6);
 }
 
-State kept(const Rock& rock)
+State kept(const Assembly& assembly)
 {
   State state(0);
-  put(state, rock);
+  save(state, assembly);
   return state;
 }
 
-/// Every array of both, by its bytes.
+/// Name of the first array that differs in its bytes; empty if none does.
 std::string first_difference(const State& a, const State& b)
 {
   for (const auto& [name, array] : a.arrays()) {
@@ -57,7 +57,7 @@ CheckpointLabel label()
 
 void write(const fs::path& file)
 {
-  write_checkpoint(file, label(), kept(rock_with_everything()), Communicator());
+  write_checkpoint(file, label(), kept(assembly_with_everything()), Communicator());
 }
 
 std::string refusal(const fs::path& file)
@@ -79,39 +79,39 @@ void overwrite_byte(const fs::path& file, std::streamoff at, char value)
 
 } // namespace
 
-TEST_CASE("a rock goes on from a checkpoint with the same bits", "[unit][dem]")
+TEST_CASE("an assembly continues from a checkpoint with the same bits", "[unit][dem]")
 {
   const TemporaryFolder folder;
-  Rock rock = rock_with_everything();
-  for (int k = 0; k < 100; ++k) step(rock);
+  Assembly assembly = assembly_with_everything();
+  for (int k = 0; k < 100; ++k) step(assembly);
   const fs::path file = folder.path / checkpoint_name(100);
-  write_checkpoint(file, label(), kept(rock), Communicator());
-  for (int k = 0; k < 100; ++k) step(rock);
+  write_checkpoint(file, label(), kept(assembly), Communicator());
+  for (int k = 0; k < 100; ++k) step(assembly);
 
   Checkpoint c = read_checkpoint(file);
   CHECK(c.label.job == "pile");
-  CHECK(c.label.stage == "driving");
+  CHECK(c.label.phase == "driving");
   CHECK(c.label.case_text == label().case_text);
   CHECK(c.label.step == 123456);
   CHECK(c.label.time == 0.25);
-  // Into a rock of the same case that stands at its beginning.
-  Rock other = rock_with_everything();
-  take(c.state, other);
+  // Into an assembly of the same case in its initial state.
+  Assembly other = assembly_with_everything();
+  load(c.state, other);
   rebuild_lists(other);
   for (int k = 0; k < 100; ++k) step(other);
-  CHECK(first_difference(kept(rock), kept(other)).empty());
+  CHECK(first_difference(kept(assembly), kept(other)).empty());
 
   // Every kind of history took part.
-  CHECK(rock.planes.front().contacts.contacts().front().f_s.norm() > 0.0);
-  CHECK(rock.walls.front().contacts.size() == 1);
-  CHECK(rock.walls.front().bonds.front().V.norm() > 0.0);
-  CHECK(rock.piles.front().load.cone.z.value() > 0.0);
-  CHECK(rock.contacts.shear.size() > 0);
-  CHECK(shear_beside(rock.bonds, 0).norm() > 0.0);
-  CHECK(rock.mirrors.front().energy.value() > 0.0);
+  CHECK(assembly.planes.front().contacts.contacts().front().f_s.norm() > 0.0);
+  CHECK(assembly.walls.front().contacts.size() == 1);
+  CHECK(assembly.walls.front().bonds.front().V.norm() > 0.0);
+  CHECK(assembly.piles.front().load.cone.z.value() > 0.0);
+  CHECK(assembly.contacts.shear.size() > 0);
+  CHECK(contact_shear_of(assembly.bonds, 0).norm() > 0.0);
+  CHECK(assembly.mirrors.front().energy.value() > 0.0);
 }
 
-TEST_CASE("what is no checkpoint is refused with the reason", "[unit][dem]")
+TEST_CASE("a file that is not a checkpoint is refused with the reason", "[unit][dem]")
 {
   const TemporaryFolder folder;
   const fs::path file = folder.path / "c.h5";
@@ -131,14 +131,14 @@ TEST_CASE("what is no checkpoint is refused with the reason", "[unit][dem]")
   CHECK(refusal(file).find("does not fit this program or case: its array label_") == 0);
 }
 
-TEST_CASE("a sealed checkpoint that holds what is not a number is damaged, not another's",
+TEST_CASE("a sealed checkpoint with a NaN counts as damaged, not as another program's",
           "[unit][dem]")
 {
   const TemporaryFolder folder;
   const fs::path file = folder.path / checkpoint_name(1);
   CheckpointLabel rare = label();
-  rare.time = 0.12345678; // found once in the file
-  write_checkpoint(file, rare, kept(rock_with_everything()), Communicator());
+  rare.time = 0.12345678; // occurs once in the file
+  write_checkpoint(file, rare, kept(assembly_with_everything()), Communicator());
   const Seal seal{"checkpoint", "64-bit sum", "", sum_of_words};
   std::string bytes = unsealed(file, seal);
   const auto in_bytes = [](double value) {
@@ -150,7 +150,7 @@ TEST_CASE("a sealed checkpoint that holds what is not a number is damaged, not a
   REQUIRE(at != std::string::npos);
   bytes.replace(at, sizeof(double), in_bytes(std::numeric_limits<double>::quiet_NaN()));
   std::ofstream(file, std::ios::binary) << sealed(bytes, seal);
-  CHECK(refusal(file).find("is damaged (label_time holds what is not a number)") == 0);
+  CHECK(refusal(file).find("is damaged (label_time has a number that is not finite)") == 0);
   CHECK(newest_checkpoint(folder.path).refused.front().is_damaged);
 }
 
@@ -176,12 +176,12 @@ TEST_CASE("a checkpoint with one changed byte is refused, wherever the byte is",
   CHECK(refusal(file) == "read");
 }
 
-TEST_CASE("the sum of words sees two flipped signs and zeros at the end", "[unit][dem]")
+TEST_CASE("the sum of words detects two flipped signs and zeros at the end", "[unit][dem]")
 {
   std::string bytes(64, '\0');
   const auto sum = [&] { return sum_of_words(bytes); };
   const std::uint64_t plain = sum();
-  bytes[7] = bytes[15] = static_cast<char>(0x80); // both top bits: FNV-1a of words is blind
+  bytes[7] = bytes[15] = static_cast<char>(0x80); // both top bits: FNV-1a of words stays
   CHECK(sum() != plain);
   bytes.assign(65, '\0');
   CHECK(sum() != plain);
@@ -189,32 +189,32 @@ TEST_CASE("the sum of words sees two flipped signs and zeros at the end", "[unit
 
 TEST_CASE("arrays that do not fit each other are refused by name", "[unit][dem]")
 {
-  const Rock rock = rock_with_everything();
+  const Assembly assembly = assembly_with_everything();
   const auto refusal_with = [&](const auto& change) {
-    State state = kept(rock);
+    State state = kept(assembly);
     change(state);
-    Rock other = rock_with_everything();
+    Assembly other = assembly_with_everything();
     try {
-      take(state, other);
+      load(state, other);
     } catch (const InputError& e) {
       return std::string(e.what());
     }
-    return std::string("taken");
+    return std::string("loaded");
   };
   using Catch::Matchers::Contains;
-  CHECK(refusal_with([](State&) {}) == "taken");
+  CHECK(refusal_with([](State&) {}) == "loaded");
   CHECK_THAT(refusal_with([](State& s) {
                s.add<std::uint32_t>("bond_pairs", {0, 1, 1, 2, 2, 6}, 2);
              }),
-             Contains("bond_pairs names grains that cannot be a pair"));
+             Contains("bond_pairs names particles that cannot be a pair"));
   CHECK_THAT(refusal_with([](State& s) {
                s.add<std::uint32_t>("bond_pairs", {0, 1, 1, 2, 1, 2}, 2);
              }),
-             Contains("bond_pairs names one twice"));
+             Contains("bond_pairs has an entry twice"));
   CHECK_THAT(refusal_with([](State& s) {
                s.add<std::uint32_t>("grains", {0, 1, 2, 3, 4, 7});
              }),
-             Contains("grains leaves some out"));
+             Contains("grains is not complete"));
   CHECK_THAT(refusal_with([](State& s) {
                s.add<std::int32_t>("grain_bonds", {1, 1});
              }),
@@ -222,20 +222,20 @@ TEST_CASE("arrays that do not fit each other are refused by name", "[unit][dem]"
   CHECK_THAT(refusal_with([](State& s) {
                s.add_common<std::uint64_t>("bodies", {1, 1, 1, 0});
              }),
-             Contains("counts other walls or piles"));
+             Contains("has another number of walls or piles"));
   CHECK_THAT(
       refusal_with([](State& s) { s.add<std::int32_t>("wall0_bond_triangles", {1}); }),
-      Contains("names a triangle that is not there"));
+      Contains("names a triangle that does not exist"));
 }
 
-TEST_CASE("a state that is not a number is never written", "[unit][dem]")
+TEST_CASE("a state with a NaN is never written", "[unit][dem]")
 {
   const TemporaryFolder folder;
   const fs::path file = folder.path / "c.h5";
   write(file);
-  Rock rock = rock_with_everything();
-  rock.particles.body[2].v.x() = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_AS(write_checkpoint(file, label(), kept(rock), Communicator()),
+  Assembly assembly = assembly_with_everything();
+  assembly.particles.state[2].v.x() = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(write_checkpoint(file, label(), kept(assembly), Communicator()),
                   CollectiveFailure);
   CHECK(refusal(file) == "read"); // the one before
 }
@@ -254,13 +254,13 @@ TEST_CASE("the newest checkpoint that can be read is found, and the newer ones a
   CHECK(found.refused.front().file == folder.path / checkpoint_name(20000));
   CHECK(found.refused.front().reason.find("is no checkpoint, or is") == 0);
   CHECK(found.refused.front().is_damaged);
-  // A whole one that another program wrote is told from a damaged one.
+  // A complete file of another format is distinguished from a damaged one.
   write_state(folder.path / checkpoint_name(20000), "checkpoint", 2, State(0),
               Communicator());
   CHECK_FALSE(newest_checkpoint(folder.path).refused.front().is_damaged);
 }
 
-TEST_CASE("the checkpoint just written is kept beside later names that were left over",
+TEST_CASE("the checkpoint just written is kept beside left-over files of later steps",
           "[unit][dem]")
 {
   const TemporaryFolder folder;

@@ -5,7 +5,7 @@
 
 namespace {
 
-// One function a pattern: what is miscompiled is the store of a braced list.
+// One function per pattern: the compiler error is in the store of a braced list.
 [[gnu::noinline]] std::vector<std::uint64_t> three_ones_and_none()
 {
   return {1, 1, 1, 0};
@@ -21,8 +21,8 @@ namespace {
 
 } // namespace
 
-// GCC 12.2 with -O3 and AVX-512 fills all places with the first number; see CMakeLists.txt.
-TEST_CASE("The compiler keeps the zeros behind equal numbers", "[unit][dem]")
+// GCC 12.2 with -O3 and AVX-512 sets all elements to the first number; see CMakeLists.txt.
+TEST_CASE("The compiler keeps the zeros after equal numbers", "[unit][dem]")
 {
   CHECK(three_ones_and_none() == std::vector<std::uint64_t>{1, 1, 1, 0});
   const std::vector<double> three = thrice_and_none(3.0), four = four_times_and_none(5.0);

@@ -31,7 +31,7 @@ TEST_CASE("A contact sticks below mu f_n and slips at it", "[unit][dem]")
 
   const auto slip = slide(gap, 3.0 * limit / k.k_s, Vec3::Zero());
   CHECK(slip.f_s.y == Approx(limit).epsilon(1e-14));
-  // trapezoidal work limit/2 * 3 limit/k_s less the stored limit^2/2 k_s
+  // trapezoidal work limit/2 * 3 limit/k_s less the stored limit^2/(2 k_s)
   CHECK(slip.slip_loss == Approx(limit * limit / k.k_s).epsilon(1e-12));
 
   const auto on = slide(gap, limit / k.k_s, {0.0, limit, 0.0}); // already sliding
@@ -47,7 +47,7 @@ TEST_CASE("The slipping force keeps the direction of its trial", "[unit][dem]")
   CHECK(c.f_s.y / c.f_s.x == Approx(5.0 / 4.0).epsilon(1e-13));
 }
 
-TEST_CASE("A contact acts from its activation gap on and forgets its shear when it opens",
+TEST_CASE("A contact acts below its activation gap and loses its shear force when it opens",
           "[unit][dem]")
 {
   CHECK(slide(law.g_a, 0.0, Vec3::Zero()).f_n == 0.0);

@@ -9,7 +9,7 @@ using namespace mergel::dem;
 
 namespace {
 
-/// Elastic with modulus E to the stress s_y, then with modulus E_t; a bedding error before.
+/// Modulus E up to the stress s_y, then E_t [Pa]; all strains shifted by a bedding error.
 Curve bilinear(double E, double s_y, double E_t, double bedding)
 {
   Curve c;
@@ -34,7 +34,7 @@ TEST_CASE("A secant between records is that of the straight line through both en
 }
 
 TEST_CASE(
-    "The offset yield of a bilinear curve is where the moved line meets its second branch",
+    "The offset yield of a bilinear curve is where the offset line cuts its second branch",
     "[unit][dem]")
 {
   // s_y + E_t (x - s_y/E) = E (x - offset)  =>  x - s_y/E = E offset/(E - E_t)
@@ -61,22 +61,24 @@ TEST_CASE("Peak, collapse and minimum are found in their order", "[unit][dem]")
   CHECK(minimum_after_peak(c).stress == 9.0);
 }
 
-TEST_CASE("The friction angle is that of Mohr's circle, whichever axis is pressed most",
+TEST_CASE("The friction angle is that of Mohr's circle, whichever axis is the major one",
           "[unit][dem]")
 {
-  // sigma_1/sigma_3 = (1 + sin phi)/(1 - sin phi); sigma_2 does not count
+  // sigma_1/sigma_3 = (1 + sin phi)/(1 - sin phi); sigma_2 does not enter
   for (const double phi : {0.3, 0.6}) {
     const double s1 = (1.0 + std::sin(phi)) / (1.0 - std::sin(phi)), s3 = 1.0;
     for (const Vec3& stress : {Vec3(s3, s3, s1), Vec3(s1, s1, s3), Vec3(s1, s3, 1.1)})
       CHECK(friction_angle(stress) == Approx(phi).epsilon(1e-12));
   }
-  // q/p = 1.37 is 34 degrees in the paper, Fig. 15: lateral 1, axial a with (a - 1)/(a + 2) = 1.37/3
+  // q/p = 1.37 is 34 degrees in the paper, Fig. 15: lateral stress 1, axial stress a with
+  // (a - 1)/(a + 2) = 1.37/3
   const double a = (3.0 + 2.0 * 1.37) / (3.0 - 1.37);
   CHECK(friction_angle({1.0, 1.0, a}) * 180.0 / pi == Approx(34.0).margin(0.2));
 }
 
-TEST_CASE("The critical state line is recovered from states on it, with R2 below 1 off it",
-          "[unit][dem]")
+TEST_CASE(
+    "The critical state line is recovered from states on it, and a state off it lowers R2",
+    "[unit][dem]")
 {
   std::vector<CriticalState> states;
   for (const double p : {0.5e6, 1e6, 2e6, 4e6, 6e6})

@@ -28,7 +28,7 @@ TEST_CASE("Any order of the terms gives the same bits", "[unit][dem]")
     std::shuffle(terms.begin(), terms.end(), random);
     REQUIRE(sum() == first);
   }
-  // and in parts
+  // and as the sum of two partial sums
   ForceSum low, high;
   for (std::size_t k = 0; k < terms.size(); ++k) (k % 3 == 0 ? low : high).add(terms[k]);
   low += high;
@@ -58,7 +58,7 @@ TEST_CASE("A term out of range or undefined throws instead of being clipped", "[
   CHECK_THROWS_AS(s.add(-0x1p50), mergel::NumericalError);
   CHECK_THROWS_AS(s.add(std::numeric_limits<double>::quiet_NaN()), mergel::NumericalError);
   CHECK_THROWS_AS(s.add(std::numeric_limits<double>::infinity()), mergel::NumericalError);
-  CHECK(s.value() == 0x1.fffffffffffffp49); // what threw was not added
+  CHECK(s.value() == 0x1.fffffffffffffp49); // the refused terms were not added
 
   EnergySum e;
   CHECK_NOTHROW(e.add(-5e11));

@@ -11,8 +11,7 @@ using namespace mergel::dem::test;
 
 namespace {
 
-/// n spheres, diameters over a decade and as many small as large by volume, in a box of
-/// edges `size`.
+/// n particles in a box of edges `size`; diameters over a decade, uniform in the logarithm.
 Particles cloud(int n, const Vec3& size, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
@@ -20,7 +19,7 @@ Particles cloud(int n, const Vec3& size, std::uint64_t seed)
   Particles p;
   for (int k = 0; k < n; ++k) {
     const Vec3 x = 0.5 * (random_vector(random) + Vec3::Ones()).cwiseProduct(size);
-    Body b = sphere(x, 0.005 * std::pow(10.0, u(random)));
+    ParticleState b = sphere(x, 0.005 * std::pow(10.0, u(random)));
     b.S = 1.0 + u(random);
     p.add(b);
   }
@@ -40,7 +39,7 @@ std::vector<Pair> by_force(const Particles& p, const PeriodicCell& cell, double 
           for (int c = -images(2); c <= images(2); ++c) {
             const Shift s{static_cast<std::int16_t>(a), static_cast<std::int16_t>(b),
                           static_cast<std::int16_t>(c)};
-            const Body &bi = p.body[i], &bj = p.body[j];
+            const ParticleState &bi = p.state[i], &bj = p.state[j];
             const double gap = (bj.x + cell.offset(s) - bi.x).norm() - bi.R - bj.R;
             if (gap < range * 0.5 * (bi.S + bj.S)) found.push_back({i, j, s});
           }
@@ -49,7 +48,8 @@ std::vector<Pair> by_force(const Particles& p, const PeriodicCell& cell, double 
 
 } // namespace
 
-TEST_CASE("The cell search finds the pairs of a search by force, ascending", "[unit][dem]")
+TEST_CASE("The cell search finds the pairs of a brute-force search, in ascending order",
+          "[unit][dem]")
 {
   const Particles p = cloud(1200, {0.6, 0.5, 0.4}, 1);
   for (const double range : {0.0, 0.002, 0.02}) {
@@ -60,7 +60,7 @@ TEST_CASE("The cell search finds the pairs of a search by force, ascending", "[u
   }
 }
 
-TEST_CASE("The search meets images across the boundaries that are periodic", "[unit][dem]")
+TEST_CASE("The search finds images across the periodic boundaries", "[unit][dem]")
 {
   const auto size =
       GENERATE(Vec3(0.41, 0.41, 0.41), Vec3(0.45, 0.0, 0.0), Vec3(0.0, 0.42, 0.6));
@@ -72,7 +72,8 @@ TEST_CASE("The search meets images across the boundaries that are periodic", "[u
                     [](const Pair& q) { return q.shift != Shift{}; }));
 }
 
-TEST_CASE("Positions many cells away give the shifts of their own cells", "[unit][dem]")
+TEST_CASE("Positions moved by many cells give the same pairs, with shifts to match",
+          "[unit][dem]")
 {
   const PeriodicCell cell{{0.5, 0.5, 0.5}};
   Particles p = cloud(300, cell.size, 3);
@@ -82,7 +83,7 @@ TEST_CASE("Positions many cells away give the shifts of their own cells", "[unit
   for (Index i = 0; i < p.size(); ++i)
     for (std::size_t a = 0; a < 3; ++a) {
       moved[i][a] = static_cast<std::int16_t>(static_cast<int>(random() % 2001) - 1000);
-      p.body[i].x[static_cast<int>(a)] += 0.5 * moved[i][a];
+      p.state[i].x[static_cast<int>(a)] += 0.5 * moved[i][a];
     }
   const auto away = find_pairs(p, cell, 0.003);
   REQUIRE(away.size() == home.size());
@@ -94,7 +95,7 @@ TEST_CASE("Positions many cells away give the shifts of their own cells", "[unit
   }
 }
 
-TEST_CASE("A cell in which a particle could meet its own image is refused", "[unit][dem]")
+TEST_CASE("A cell in which a particle could touch its own image is refused", "[unit][dem]")
 {
   Particles p;
   p.add(sphere({0, 0, 0}, 1.0));

@@ -8,7 +8,7 @@
 using namespace mergel;
 using namespace mergel::dem;
 
-TEST_CASE("a history that cannot be begun is refused with the system's reason",
+TEST_CASE("a history file that cannot be created is refused with the system's reason",
           "[unit][dem]")
 {
   const TemporaryFolder folder;
@@ -18,12 +18,12 @@ TEST_CASE("a history that cannot be begun is refused with the system's reason",
     } catch (const NumericalError& e) {
       return e.what();
     }
-    return "begun";
+    return "created";
   };
   CHECK(refusal(folder.path / "none" / "history.csv")
             .find("history.csv: cannot be written: No such file or directory") !=
         std::string::npos);
   CHECK(refusal(folder.path).find(": cannot be written: Is a directory") !=
         std::string::npos);
-  CHECK(refusal(folder.path / "history.csv") == "begun");
+  CHECK(refusal(folder.path / "history.csv") == "created");
 }

@@ -19,7 +19,7 @@ bool same_bits(const Triple<double>& a, const Triple<double>& b)
   return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
 }
 
-/// Four of a kind and the scalars they were made of.
+/// Random numbers, vectors and ends of a pair, one in each lane.
 struct Fours {
   std::mt19937_64 random{7};
 
@@ -50,7 +50,7 @@ End<double> lane_of(const End<Lanes>& e, int l)
 
 } // namespace
 
-TEST_CASE("A row a lane turns into four columns, and back", "[unit][dem]")
+TEST_CASE("One row per lane is transposed into four columns, and back", "[unit][dem]")
 {
   Row in[n_lanes], out[n_lanes];
   for (int l = 0; l < n_lanes; ++l)
@@ -64,11 +64,11 @@ TEST_CASE("A row a lane turns into four columns, and back", "[unit][dem]")
     for (int k = 0; k < 4; ++k) CHECK(out[l][k] == in[l][k]);
 }
 
-TEST_CASE("A lane-wise choice takes each lane by its own condition", "[unit][dem]")
+TEST_CASE("A lane-wise choice decides each lane by its own condition", "[unit][dem]")
 {
   const Lanes a{1, 5, -3, 2}, b{2, 4, -3, -2};
-  const Lanes least = mergel::dem::min(a, b);
-  for (int l = 0; l < n_lanes; ++l) CHECK(least[l] == std::min(a[l], b[l]));
+  const Lanes smallest = mergel::dem::min(a, b);
+  for (int l = 0; l < n_lanes; ++l) CHECK(smallest[l] == std::min(a[l], b[l]));
   CHECK(any(a < b));
   CHECK_FALSE(any(a > Lanes{9, 9, 9, 9}));
   for (int l = 0; l < n_lanes; ++l) { // any() sees every lane
@@ -94,7 +94,7 @@ TEST_CASE("The four-lane kernel gives the bits of the scalar kernel", "[unit][de
     const double dt = 1e-7;
     const PairMotion<Lanes> k = pair_motion(i, j, dt);
     const Triple<Lanes> history = fours.vector(3e-2);
-    const Triple<Lanes> V = turned(history, k);
+    const Triple<Lanes> V = rotated_with_contact(history, k);
     const Lanes r = mergel::dem::min(i.R, j.R), g_a = law.g_a * (0.5 * (i.S + j.S));
     const auto stiffness = linear_stiffness(law, r, k.inv_L);
     const auto c = linear_contact(law, stiffness, k.gap, g_a, k.du_s, V);
@@ -112,9 +112,9 @@ TEST_CASE("The four-lane kernel gives the bits of the scalar kernel", "[unit][de
              same_bits(k1.a_j, k.a_j[l]) && same_bits(k1.du_n, k.du_n[l]) &&
              same_bits(k1.du_s, lane(k.du_s, l)) &&
              same_bits(k1.dtheta, lane(k.dtheta, l)) && same_bits(k1.dphi, k.dphi[l]) &&
-             same_bits(k1.tilt, lane(k.tilt, l)) && same_bits(k1.twist, k.twist[l]);
+             same_bits(k1.dn, lane(k.dn, l)) && same_bits(k1.rotation_n, k.rotation_n[l]);
 
-      const auto V1 = turned(lane(history, l), k1);
+      const auto V1 = rotated_with_contact(lane(history, l), k1);
       const double r1 = mergel::dem::min(i.R[l], j.R[l]);
       const double g1 = law.g_a * (0.5 * (i.S[l] + j.S[l]));
       const auto stiffness1 = linear_stiffness(law, r1, k1.inv_L);
@@ -137,7 +137,7 @@ TEST_CASE("The four-lane kernel gives the bits of the scalar kernel", "[unit][de
     }
     REQUIRE(same);
   }
-  // every branch was met
+  // every branch was taken
   CHECK(n_sliding > 100);
   CHECK(n_open > 100);
   CHECK(n_elastic > 100);

@@ -24,8 +24,8 @@ struct Halved {
   }
   void move(double u)
   {
-    p.body[0].v.y() = u / 1e-4;
-    p.body[0].x.y() += u;
+    p.state[0].v.y() = u / 1e-4;
+    p.state[0].x.y() += u;
     clear_loads(p);
     add_mirror_forces(material, 1e-4, p, mirror, losses);
   }
@@ -33,7 +33,7 @@ struct Halved {
 
 } // namespace
 
-TEST_CASE("A bond to the image pulls with twice the displacement", "[unit][dem]")
+TEST_CASE("A bond to the mirror image stretches by twice the displacement", "[unit][dem]")
 {
   Halved s;
   CHECK(s.p.n_bonds[0] == 1);
@@ -46,7 +46,7 @@ TEST_CASE("A bond to the image pulls with twice the displacement", "[unit][dem]"
   CHECK(s.mirror.energy.value() == Approx(0.5 * 0.5 * k_n * 4e-12).epsilon(1e-9));
 }
 
-TEST_CASE("The half model sees the force, the loss and the breakage of the whole pair",
+TEST_CASE("The half model has the force, the loss and the breakage of the full pair",
           "[unit][dem]")
 {
   Halved half;
@@ -60,8 +60,8 @@ TEST_CASE("The half model sees the force, the loss and the breakage of the whole
     const double u = (step % 10 < 8 ? 1.0 : -0.5) * 4e-6; // pull with some unloading
     half.move(u);
     for (const Index i : {0u, 1u}) {
-      whole.p.body[i].v.y() = (i == 0 ? 1.0 : -1.0) * u / dt;
-      whole.p.body[i].x += dt * whole.p.body[i].v;
+      whole.p.state[i].v.y() = (i == 0 ? 1.0 : -1.0) * u / dt;
+      whole.p.state[i].x += dt * whole.p.state[i].v;
     }
     whole.forces(dt);
     REQUIRE(half.p.load[0].f.y() == Approx(whole.p.load[0].f.y()).margin(1e-8));
@@ -73,25 +73,27 @@ TEST_CASE("The half model sees the force, the loss and the breakage of the whole
   CHECK(half.losses.broken == 1);
   CHECK(whole.losses.broken == 1);
   CHECK(half.p.n_bonds[0] == 0);
-  CHECK(half.losses.residue.value() * 2.0 ==
-        Approx(whole.losses.residue.value()).epsilon(1e-6));
+  CHECK(half.losses.breakage_release.value() * 2.0 ==
+        Approx(whole.losses.breakage_release.value()).epsilon(1e-6));
 }
 
-TEST_CASE("A bonded particle at the cut spins along the plane's normal only", "[unit][dem]")
+TEST_CASE(
+    "A particle bonded to its image spins about the normal of the symmetry plane only",
+    "[unit][dem]")
 {
   Particles p;
-  Body b = sphere({0.0, R, 0.0}, R);
+  ParticleState b = sphere({0.0, R, 0.0}, R);
   b.omega = {1.0, 2.0, 3.0};
   p.add(b);
   Mirror mirror;
   bond_to_mirror(mirror, p, 1e-3);
-  CHECK(p.body[0].omega == Vec3(0.0, 2.0, 0.0));
+  CHECK(p.state[0].omega == Vec3(0.0, 2.0, 0.0));
   p.load[0].t = {5.0, 6.0, 7.0};
-  hold_mirror_spin(mirror, p);
+  constrain_mirror_spin(mirror, p);
   CHECK(p.load[0].t == Vec3(0.0, 6.0, 0.0));
 }
 
-TEST_CASE("An unbonded particle is pushed off the cut by its image and never pulled",
+TEST_CASE("The image of an unbonded particle repels it and never attracts it",
           "[unit][dem]")
 {
   Particles p;
@@ -106,16 +108,16 @@ TEST_CASE("An unbonded particle is pushed off the cut by its image and never pul
   CHECK(p.load[0].f.y() == Approx(63e6 * pi * R * R / (2 * R) * 2e-4).epsilon(1e-9));
   CHECK(p.load[1].f.norm() == 0.0);
 
-  p.body[0].x.y() = -1e-6;
+  p.state[0].x.y() = -1e-6;
   CHECK_THROWS_AS(add_mirror_forces({bond_of_table_1(), law}, 0.0, p, mirror, losses),
                   mergel::NumericalError);
 }
 
-TEST_CASE("A rebuild drops the distant and keeps the bonded pairs of the mirror",
+TEST_CASE("A rebuild drops the distant pairs of the mirror and keeps the bonded ones",
           "[unit][dem]")
 {
   Halved s;
-  s.p.body[0].x.y() += 1.0;
+  s.p.state[0].x.y() += 1.0;
   s.p.add(sphere({0.0, R + 1.0, 0.0}, R));
   rebuild_mirror(s.mirror, s.p, 0.0, 1e-3);
   REQUIRE(s.mirror.pairs.size() == 1);

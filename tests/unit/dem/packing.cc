@@ -16,7 +16,7 @@ namespace {
 
 constexpr double d00 = 0.066e-3; // [m]
 
-/// A small half cylinder of the paper's grading, graded in S.
+/// A small half cylinder of the paper's size distribution; S grows with the radius.
 SpecimenSpec small_specimen()
 {
   SpecimenSpec s;
@@ -47,13 +47,13 @@ TEST_CASE("A packing has its porosity, its ids in order and no overlap", "[unit]
   CAPTURE(p.size(), packing.porosity, packing.whole_porosity, packing.overlap);
   CHECK(p.size() > 1000);
   CHECK(packing.porosity ==
-        Approx(0.52).margin(0.01)); // the last sweeps may shift what 0.004 judged
+        Approx(0.52).margin(0.01)); // 0.004, and what the last sweeps change
   CHECK(core_porosity(s.region, p) == packing.porosity);
   CHECK(packing.whole_porosity > packing.porosity); // the walls leave voids
 
   bool in_order = true, in_size = true, inside = true;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const Body& b = p.body[i];
+    const ParticleState& b = p.state[i];
     in_order = in_order && p.id[i] == i;
     in_size = in_size && 2.0 * b.R >= b.S * s.sizes.smallest() &&
               2.0 * b.R <= b.S * s.sizes.largest() && b.S >= 1.5 && b.S <= 2.0 &&
@@ -64,33 +64,32 @@ TEST_CASE("A packing has its porosity, its ids in order and no overlap", "[unit]
   CHECK(in_size);
   CHECK(inside);
 
-  // No far-field shell is closed by more than the overlap it reports, and the spheres are
-  // apart.
+  // No two particles with their far-field shells overlap by more than the overlap reported;
+  // without the shells they do not touch.
   double worst = 0.0;
   for (const Pair& q : find_pairs(p, {}, s.contact.g_a)) {
-    const Body &i = p.body[q.i], &j = p.body[q.j];
+    const ParticleState &i = p.state[q.i], &j = p.state[q.j];
     const double reach = i.R + j.R + s.contact.g_a * 0.5 * (i.S + j.S);
     worst = std::max(worst, (reach - (j.x - i.x).norm()) / reach);
   }
-  CHECK(worst <=
-        packing.overlap * 1.5 + 1e-12); // one more move follows the sweep that was judged
+  CHECK(worst <= packing.overlap * 1.5 + 1e-12); // reported before the last move
   CHECK(packing.overlap < 2e-3);
 }
 
-TEST_CASE("Births per volume fall with the cube of the upscaling ratio", "[unit][dem]")
+TEST_CASE("The number of particles per volume falls with the cube of S", "[unit][dem]")
 {
   const SpecimenSpec s = small_specimen();
   double n_inner = 0.0, n_outer = 0.0;
-  for (const Body& b : packed().particles.body) {
+  for (const ParticleState& b : packed().particles.state) {
     n_inner += b.S == 1.5;
     n_outer += b.S == 2.0;
   }
-  // n S^3 is the same per volume; the prism's area beyond r_outer is its own less the half
-  // disc.
+  // n S^3 is the same per volume; the area of the prism beyond r_outer is its area less the
+  // half disc.
   const double outer_area = volume(s.region) / 2.0e-3 - 0.5 * pi * 1.2e-3 * 1.2e-3;
   const double inner_area = 0.5 * pi * 0.4e-3 * 0.4e-3;
   const double expected = inner_area / outer_area * std::pow(2.0 / 1.5, 3);
-  // some 100 grains inside: a scatter of 10 %, two and a half of that
+  // some 100 particles inside: 2.5 standard deviations of 10 %
   CHECK(n_inner / n_outer == Approx(expected).epsilon(0.25));
 }
 
@@ -101,7 +100,7 @@ TEST_CASE("The same seed gives the same bits, another seed another packing", "[u
   const auto first = [&](std::uint64_t seed) {
     s.seed = seed;
     s.porosity = 0.6; // loose: few sweeps
-    return pack(s, [](double) {}).particles.body.front().x;
+    return pack(s, [](double) {}).particles.state.front().x;
   };
   CHECK(first(4) == first(4));
   CHECK(first(4) != first(5));
@@ -113,7 +112,7 @@ TEST_CASE("Bonds are the closest pairs, up to the coordination or the bond gap",
   SpecimenSpec s = small_specimen();
   const Particles& p = packed().particles;
   const auto gap_of = [&](const Pair& q) {
-    const Body &i = p.body[q.i], &j = p.body[q.j];
+    const ParticleState &i = p.state[q.i], &j = p.state[q.j];
     return ((j.x - i.x).norm() - i.R - j.R) / (0.5 * (i.S + j.S));
   };
   const Bonding bonding = choose_bonds(s, p, {});
@@ -134,12 +133,12 @@ TEST_CASE("Bonds are the closest pairs, up to the coordination or the bond gap",
   CHECK(all.pairs == find_pairs(p, {}, s.g_b));
 }
 
-TEST_CASE("A porosity out of reach is refused with the range that can be reached",
+TEST_CASE("A porosity that cannot be reached is refused with the range that can",
           "[unit][dem]")
 {
   SpecimenSpec s = small_specimen();
   CHECK_NOTHROW(s.check());
-  CHECK(effective_solid_fraction(s) == Approx(0.626).margin(0.002)); // design, section 7
+  CHECK(effective_solid_fraction(s) == Approx(0.626).margin(0.002)); // dem/README.md, 17.
 
   s.porosity = 0.2;
   std::string text;
@@ -160,10 +159,10 @@ TEST_CASE("A porosity out of reach is refused with the range that can be reached
   s.pressure = 5e3;
   s.contact = contact(0.63e9, 2.4, 0.3, 0.15 * d00);
   // The shells fill 0.626 at 0.52: 1 - 0.48 * 0.52/0.626 = 0.60.
-  CHECK_THROWS_WITH(s.check(), Contains(" and at most some 0.60"));
+  CHECK_THROWS_WITH(s.check(), Contains(" and at most about 0.60"));
 }
 
-TEST_CASE("A specimen that makes no sense is refused", "[unit][dem]")
+TEST_CASE("Specimen parameters out of range are refused", "[unit][dem]")
 {
   const auto refused = [](auto&& change) {
     SpecimenSpec s = small_specimen();
@@ -177,8 +176,9 @@ TEST_CASE("A specimen that makes no sense is refused", "[unit][dem]")
   refused([](SpecimenSpec& s) { s.friction = -0.1; });
   refused([](SpecimenSpec& s) { s.porosity = 1.0; });
   refused([](SpecimenSpec& s) { s.porosity = std::nan(""); });
-  refused([](SpecimenSpec& s) { s.scale.S_outer = 20.0; }); // grains as large as the region
-  // Twice the largest grain, 2 x 0.2674 mm, and the gaps that are looked for, 0.0594 mm.
+  refused(
+      [](SpecimenSpec& s) { s.scale.S_outer = 20.0; }); // particles as large as the region
+  // Twice the largest diameter, 2 x 0.2674 mm, and the gaps that are searched, 0.0594 mm.
   const auto box = [](double edge) {
     return [edge](SpecimenSpec& s) {
       s.region = PeriodicBox{Vec3::Constant(edge)};

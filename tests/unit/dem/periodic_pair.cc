@@ -7,28 +7,27 @@
 using namespace mergel::dem;
 using namespace mergel::dem::test;
 
-TEST_CASE("A pair across the boundary feels what the same pair feels in the open",
+TEST_CASE("A pair across a periodic boundary has the forces of the same pair without one",
           "[unit][dem]")
 {
-  // All lengths are sums of powers of two: the image is exactly where the open neighbour
-  // is, and the forces must agree to the last bit.
+  // All lengths are sums of powers of two: the image is exactly where the neighbour is
+  // without boundaries, and the forces must agree to the last bit.
   const auto pair = [](bool periodic) {
     Scene s;
     s.material = {bond_of_table_1(), contact(0.63e9, 2.4, 0.3, 0x1p-8)};
     s.p.add(sphere({0x1p-4, 0x1p-3, 0.0}, 0x1p-4));
     s.p.add(sphere({0x1p-4 - 0x1p-3, 0x1p-3 + 0x1p-9, 0x1p-10}, 0x1p-4));
-    s.p.body[1].omega = {1.0, -2.0, 3.0};
-    s.p.body[0].v = {0.0, 0.5, -0.25};
+    s.p.state[1].omega = {1.0, -2.0, 3.0};
+    s.p.state[0].v = {0.0, 0.5, -0.25};
     s.cell.size = periodic ? Vec3(1.0, 1.0, 0.0) : Vec3::Zero();
-    if (periodic)
-      s.p.body[1].x += Vec3(1.0, -2.0, 0.0); // two cells away from where it touches
+    if (periodic) s.p.state[1].x += Vec3(1.0, -2.0, 0.0); // two cells away from the contact
     const auto pairs = find_pairs(s.p, s.cell, s.material.contact.g_a);
     REQUIRE(pairs.size() == 1);
     CHECK(pairs[0].shift == (periodic ? Shift{-1, 2, 0} : Shift{0, 0, 0}));
     s.bond(pairs);
     for (int step = 0; step < 20; ++step) {
       s.forces(1e-6);
-      s.p.body[0].omega += Vec3(0.1, 0.0, 0.2);
+      s.p.state[0].omega += Vec3(0.1, 0.0, 0.2);
     }
     return s;
   };
@@ -42,14 +41,14 @@ TEST_CASE("A pair across the boundary feels what the same pair feels in the open
   CHECK(open.stored() == across.stored());
 }
 
-TEST_CASE("A contact across the boundary is a contact, bonded or not", "[unit][dem]")
+TEST_CASE("An unbonded pair across a periodic boundary is a contact", "[unit][dem]")
 {
   Scene s;
   s.material.contact = contact(0.63e9, 2.4, 0.3, 0.0);
   s.cell.size = {0.5, 0.5, 0.5};
   s.p.add(sphere({0.01, 0.2, 0.2}, 0.02));
   s.p.add(sphere({0.48, 0.2, 0.2}, 0.02)); // 30 mm from the image, overlap 10 mm
-  s.touch(find_pairs(s.p, s.cell, 0.0));
+  s.add_contacts(find_pairs(s.p, s.cell, 0.0));
   REQUIRE(s.contacts.pairs == std::vector<Pair>{{0, 1, {-1, 0, 0}}});
   s.forces(0.0);
   const double k_n = 0.63e9 * pi * 0.02 * 0.02 / 0.04;

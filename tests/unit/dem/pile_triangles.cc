@@ -21,7 +21,7 @@ Pile exact_pile()
   return s;
 }
 
-/// The pile as n chords, each corner on the true surface.
+/// The pile with n chords around it, each corner on the true surface.
 Wall pile_of_triangles(const Pile& s, int n)
 {
   std::vector<Vec3> x{{0, 0, 0}};
@@ -38,7 +38,7 @@ Wall pile_of_triangles(const Pile& s, int n)
   std::vector<Triangle> triangles;
   for (int k = 0; k < n; ++k) {
     const int next = (k + 1) % n;
-    triangles.push_back({0, 1 + next, 1 + k}); // normals outwards, to the rock
+    triangles.push_back({0, 1 + next, 1 + k}); // normals outwards, to the particles
     for (int row = 0; row < 3; ++row) {
       const int a = 1 + row * n + k, b = 1 + row * n + next;
       triangles.push_back({a, b, b + n});
@@ -48,8 +48,8 @@ Wall pile_of_triangles(const Pile& s, int n)
   return make_wall(x, triangles, law);
 }
 
-/// Largest difference of force over spheres pressed into cone and shaft by 0.05 R, relative
-/// to the force.
+/// Largest difference of the forces on particles pressed into cone and shaft by 0.05 R,
+/// relative to the force.
 double largest_error(int n)
 {
   const Pile s = exact_pile();
@@ -70,7 +70,7 @@ double largest_error(int n)
   Particles meshed = exact;
   SurfaceContacts contacts;
   contacts.rebuild(exact, law.g_a, 1e-4, Vec3::Zero(),
-                   [&](const Body& b) { return s.meet(b).touch.gap; });
+                   [&](const ParticleState& b) { return s.closest_point(b).geometry.gap; });
   rebuild_wall(wall, meshed, 1e-4);
   PairLosses losses;
   add_pile_forces(law, s, 0.0, exact, contacts, losses);
@@ -91,7 +91,7 @@ double sagitta(int n)
 } // namespace
 
 TEST_CASE(
-    "The pile as triangles pushes like the exact pile, to the second order of its chords",
+    "The triangulated pile has the force of the exact pile to second order in the chord",
     "[unit][dem]")
 {
   const double e_100 = largest_error(100), e_200 = largest_error(200),
@@ -104,7 +104,8 @@ TEST_CASE(
   CHECK(e_200 / e_400 == Approx(4.0).epsilon(0.15));
 }
 
-TEST_CASE("A sphere at the shoulder of a pile of triangles feels one force", "[unit][dem]")
+TEST_CASE("A particle at the shoulder of a triangulated pile has one contact force",
+          "[unit][dem]")
 {
   // The shoulder is a ridge of 30 degrees, the limit of one smooth patch.
   const Pile s = exact_pile();

@@ -12,9 +12,8 @@ namespace {
 
 constexpr double R = 1e-3;
 
-/// One sphere rolled and pushed about, over a few thousand steps, along the same way each
-/// time.
-void lead_about(Body& b, int step)
+/// Moves and rotates one particle along a fixed path of a few thousand steps.
+void move_along_path(ParticleState& b, int step)
 {
   const double t = 1e-3 * step;
   b.v = {3.0 * std::cos(3 * t), 3.0 * std::cos(5 * t), 0.05 * std::cos(20 * t)};
@@ -24,7 +23,8 @@ void lead_about(Body& b, int step)
 
 } // namespace
 
-TEST_CASE("A plane and the same plane of triangles give the same force", "[unit][dem]")
+TEST_CASE("A plane and the same plane of triangles have the same contact force",
+          "[unit][dem]")
 {
   const LinearMaterial law = contact(1e8, 2.0, 0.3, 1e-5);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.4, Vec3(0.6, 0.8, 0.0)));
@@ -51,13 +51,13 @@ TEST_CASE("A plane and the same plane of triangles give the same force", "[unit]
   two.add(sphere(0.99 * R * n, R));
   SurfaceContacts contacts;
   contacts.rebuild(one, law.g_a, 1e-3, Vec3::Zero(),
-                   [&](const Body& b) { return plane.touch(b).gap; });
+                   [&](const ParticleState& b) { return plane.contact_geometry(b).gap; });
   REQUIRE(contacts.contacts().size() == 1);
   PairLosses losses_1, losses_2;
   double worst = 0.0, largest = 0.0;
   for (int step = 0; step < 3000; ++step) {
-    lead_about(one.body[0], step);
-    lead_about(two.body[0], step);
+    move_along_path(one.state[0], step);
+    move_along_path(two.state[0], step);
     clear_loads(one);
     clear_loads(two);
     rebuild_wall(wall, two, 1e-4);
@@ -71,12 +71,12 @@ TEST_CASE("A plane and the same plane of triangles give the same force", "[unit]
   }
   CHECK(largest > 1.0);
   CHECK(worst <
-        1e-9 * largest); // round-off of gaps of 1e-5 at places of 1e-3: 1e-13 to 1e-11
+        1e-9 * largest); // round-off of gaps of 1e-5 at positions of 1e-3: 1e-13 to 1e-11
   CHECK(losses_1.slip.value() > 0.0);
   CHECK(losses_1.slip.value() == Approx(losses_2.slip.value()).epsilon(1e-9));
 }
 
-TEST_CASE("A plane pushes along its normal and stops what has passed through",
+TEST_CASE("A plane acts along its normal, and a particle behind it stops the run",
           "[unit][dem]")
 {
   const LinearMaterial law = contact(1e9, 2.0, 0.3, 1e-5);
@@ -86,7 +86,7 @@ TEST_CASE("A plane pushes along its normal and stops what has passed through",
   p.add(sphere({9e-3, 2e-3, 9e-3}, R));
   SurfaceContacts contacts;
   contacts.rebuild(p, law.g_a, 1e-4, Vec3::Zero(),
-                   [&](const Body& b) { return plane.touch(b).gap; });
+                   [&](const ParticleState& b) { return plane.contact_geometry(b).gap; });
   REQUIRE(contacts.contacts().size() == 1);
   CHECK_FALSE(contacts.has_moved({0, 0, 0.9e-4}, 1e-4));
   CHECK(contacts.has_moved({0, 0, 1.1e-4}, 1e-4));
@@ -98,7 +98,7 @@ TEST_CASE("A plane pushes along its normal and stops what has passed through",
   CHECK(contacts.energy().value() ==
         Approx(0.5 * 1e9 * pi * R * 1.5e-5 * 1.5e-5).epsilon(1e-9));
 
-  p.body[0].x.z() = 4.999e-3;
+  p.state[0].x.z() = 4.999e-3;
   CHECK_THROWS_AS(add_plane_forces(law, plane, 0.0, p, contacts, losses),
                   mergel::NumericalError);
 }

@@ -15,7 +15,7 @@ const PeriodicBox box{{2.0, 3.0, 4.0}};
 const Cylinder cylinder{1.5, 2.5, 7};
 const HalfCylinder half{1.5, 2.5, 5};
 
-/// Share of the surrounding box that lies inside, by n random points.
+/// Share of the bounding box that lies inside the region, from n random points.
 double share_inside(const Region& region, int n)
 {
   int inside = 0;
@@ -29,12 +29,12 @@ double share_inside(const Region& region, int n)
 
 } // namespace
 
-TEST_CASE("A region's volume is its share of the box around it", "[unit][dem]")
+TEST_CASE("The volume of a region is its share of its bounding box", "[unit][dem]")
 {
   for (const Region& region : {Region(box), Region(cylinder), Region(half)}) {
     const Bounds b = bounds(region);
     const double of_box = volume(region) / (b.high - b.low).prod();
-    // 20,000 points: a standard deviation of 0.0035, three of them.
+    // 20,000 points: three standard deviations of 0.0035.
     CHECK(share_inside(region, 20000) == Approx(of_box).margin(0.0105));
   }
   CHECK(volume(box) == 24.0);
@@ -49,7 +49,7 @@ TEST_CASE("The depth of a point is its distance to the nearest solid face", "[un
     double nearest = 1e9;
     for (const Face& f : solid_faces(region))
       nearest = std::min(nearest, (x - f.point).dot(f.inwards));
-    // Where two chords are as near the sector decides: they differ by round-off only there.
+    // Where two chords are equally near, the sector chooses one; they differ by round-off.
     CHECK(depth(region, x) == Approx(nearest).margin(1e-12));
   }
   CHECK(solid_faces(region).size() == 9); // seven chords and two ends
@@ -57,7 +57,7 @@ TEST_CASE("The depth of a point is its distance to the nearest solid face", "[un
   CHECK(std::isinf(depth(box, {9.0, 9.0, 9.0})));
 }
 
-TEST_CASE("What is inside by a margin is that deep", "[unit][dem]")
+TEST_CASE("is_inside_by() agrees with the depth of a point", "[unit][dem]")
 {
   int n_inside = 0;
   const auto compare = [&](const auto& shape, double margin) {
@@ -68,7 +68,8 @@ TEST_CASE("What is inside by a margin is that deep", "[unit][dem]")
     }
     return true;
   };
-  // Near the least width nothing is left; the chords of these prisms are far from their circle.
+  // At a margin near half the smallest width no point is inside; the chords of these prisms
+  // are far from their circle.
   for (const double margin : {0.01, 0.2, 0.5, 1.1, 2.0}) {
     CHECK(compare(box, margin));
     CHECK(compare(cylinder, margin));
@@ -84,7 +85,8 @@ TEST_CASE("The cut of a half cylinder bounds it and is no solid face", "[unit][d
   CHECK(solid_faces(half).size() == 7);
 }
 
-TEST_CASE("Only a box has a periodic cell, and its axis is its middle", "[unit][dem]")
+TEST_CASE("Only a box has a periodic cell, and its axis goes through its centre",
+          "[unit][dem]")
 {
   CHECK(cell_of(box).size == box.size);
   CHECK_FALSE(cell_of(cylinder).is_periodic());

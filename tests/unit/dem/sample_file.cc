@@ -12,11 +12,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Sample three_grains()
+Sample three_particles()
 {
   Sample s;
   for (int k = 0; k < 3; ++k) {
-    Body b;
+    ParticleState b;
     b.x = Vec3(0.1 * k, 1.0 / 3.0, -0.7);
     b.R = 0.04 + 0.001 * k;
     b.S = 3.0 + k;
@@ -56,12 +56,13 @@ void overwrite_byte(const fs::path& file, std::streamoff at, char value)
 TEST_CASE("a sample is read back bit for bit", "[unit][dem]")
 {
   const TemporaryFolder folder;
-  const Sample s = three_grains();
+  const Sample s = three_particles();
   write_sample(folder.path / "s.h5", s);
   const Sample r = read_sample(folder.path / "s.h5");
   REQUIRE(r.packing.particles.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) {
-    const Body &a = s.packing.particles.body[i], &b = r.packing.particles.body[i];
+    const ParticleState &a = s.packing.particles.state[i],
+                        &b = r.packing.particles.state[i];
     CHECK(a.x == b.x);
     CHECK(a.R == b.R);
     CHECK(a.S == b.S);
@@ -78,16 +79,16 @@ TEST_CASE("a sample is read back bit for bit", "[unit][dem]")
   CHECK(difference(r, s.recipe).empty());
 }
 
-TEST_CASE("a sample of another recipe is told apart by its first difference", "[unit][dem]")
+TEST_CASE("a sample of another recipe is reported with its first difference", "[unit][dem]")
 {
-  const Sample s = three_grains();
+  const Sample s = three_particles();
   CHECK(difference(s, {{"porosity", "0.5"}, {"seed", "2"}}) ==
         "was made with porosity = 0.52, the case asks for 0.5");
   CHECK(difference(s, {{"porosity", "0.52"}}) ==
         "was made by another version of the program");
 }
 
-TEST_CASE("what is no sample is refused with the reason", "[unit][dem]")
+TEST_CASE("a file that is not a sample is refused with the reason", "[unit][dem]")
 {
   const TemporaryFolder folder;
   const fs::path file = folder.path / "s.h5";
@@ -98,17 +99,17 @@ TEST_CASE("what is no sample is refused with the reason", "[unit][dem]")
   std::ofstream(file) << "time [s],depth [m]\n";
   CHECK(refusal(file).find("is no sample: it is not an HDF5 file") == 0);
 
-  write_sample(file, three_grains());
+  write_sample(file, three_particles());
   fs::resize_file(file, fs::file_size(file) / 2);
   CHECK(refusal(file).find("is no sample, or is truncated") == 0);
 }
 
-// HDF5 reads beyond its own memory on some of these files: it must never get them.
+// HDF5 reads beyond its own memory on some of these files: they must never reach it.
 TEST_CASE("a sample with one changed byte is refused, wherever the byte is", "[unit][dem]")
 {
   const TemporaryFolder folder;
   const fs::path file = folder.path / "s.h5";
-  write_sample(file, three_grains());
+  write_sample(file, three_particles());
   std::ifstream in(file, std::ios::binary);
   const std::string good((std::istreambuf_iterator<char>(in)), {});
   in.close();
@@ -126,11 +127,11 @@ TEST_CASE("a sample with one changed byte is refused, wherever the byte is", "[u
   CHECK(refusal(file) == "read");
 }
 
-TEST_CASE("another HDF5 file is no sample", "[unit][dem]")
+TEST_CASE("an HDF5 file without the seal is refused", "[unit][dem]")
 {
   const TemporaryFolder folder;
   const fs::path file = folder.path / "s.h5";
-  write_sample(file, three_grains());
-  fs::resize_file(file, fs::file_size(file) - 10); // HDF5 still opens it, the seal is gone
+  write_sample(file, three_particles());
+  fs::resize_file(file, fs::file_size(file) - 10); // without the seal; HDF5 still opens it
   CHECK(refusal(file).find("is no sample, or is truncated") == 0);
 }

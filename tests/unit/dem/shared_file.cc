@@ -30,7 +30,7 @@ Piece piece(std::string_view all, std::uint64_t at, std::uint64_t size, int rank
 
 } // namespace
 
-TEST_CASE("a file made by another is told by its mark, and a missing one by the system",
+TEST_CASE("a file of another run is detected by its mark, a missing one by the system",
           "[unit][dem]")
 {
   const TemporaryFolder folder;
@@ -41,11 +41,11 @@ TEST_CASE("a file made by another is told by its mark, and a missing one by the 
   CHECK_NOTHROW(require_mark(shared, "a", mark, second, 0.0));
 
   fs::copy_file(shared, stale);
-  SharedFile(stale, "a", SharedFile::Way::find).take_off(mark);
+  SharedFile(stale, "a", SharedFile::Way::find).remove_mark(mark);
   SharedFile(stale, "a", SharedFile::Way::find).mark(first); // another number
   CHECK_THROWS_WITH(require_mark(stale, "a", mark, second, 0.0),
                     Contains("a: rank 1 on node12 does not see the file that rank 0 on "
-                             "node11 has made (there is another file)") &&
+                             "node11 has made (it finds another file)") &&
                         Contains("a folder with --output that all nodes share"));
   CHECK_THROWS_WITH(require_mark(folder.path / "none", "a", mark, second, 0.0),
                     Contains("No such file or directory"));
@@ -53,11 +53,11 @@ TEST_CASE("a file made by another is told by its mark, and a missing one by the 
                   NumericalError);
   CHECK_FALSE(fs::exists(folder.path / "none"));
 
-  SharedFile(shared, "a", SharedFile::Way::find).take_off(mark);
+  SharedFile(shared, "a", SharedFile::Way::find).remove_mark(mark);
   CHECK(bytes_of(shared) == "rows");
 }
 
-TEST_CASE("what a rank wrote and the file does not hold is told by rank and node",
+TEST_CASE("bytes of a rank that did not reach the file are reported with rank and node",
           "[unit][dem]")
 {
   const TemporaryFolder folder;
@@ -76,7 +76,7 @@ TEST_CASE("what a rank wrote and the file does not hold is told by rank and node
   std::ofstream(file) << written.substr(0, 50);
   CHECK_THROWS_WITH(read_back(file, "a", pieces), Contains("rank 1 on node12"));
   lost = written;
-  lost[3] = 'X'; // of nobody
+  lost[3] = 'X'; // in no rank's piece
   CHECK(first_wrong(lost, pieces) == nullptr);
   lost[12] = 'X';
   CHECK(first_wrong(lost, pieces) == &pieces[0]);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double R = 1e-3;
 
-Particles grains(std::size_t n)
+Particles particles(std::size_t n)
 {
   Particles p;
   for (std::size_t k = 0; k < n; ++k)
@@ -27,7 +27,7 @@ Particles grains(std::size_t n)
   return p;
 }
 
-/// Share below f of a law of mean 1 and this coefficient of variation.
+/// Share below f in a distribution of mean 1 and this coefficient of variation.
 double share_below(const StrengthVariability& v, double f)
 {
   if (v.distribution == Distribution::log_normal) {
@@ -38,7 +38,7 @@ double share_below(const StrengthVariability& v, double f)
   return 1.0 - std::exp(-std::pow(f * std::tgamma(1.0 + 1.0 / k), k));
 }
 
-/// Kolmogorov's distance of what was drawn from its law.
+/// Kolmogorov's distance of the drawn factors from their distribution.
 double distance(const StrengthVariability& v, std::vector<double> drawn)
 {
   std::sort(drawn.begin(), drawn.end());
@@ -52,20 +52,20 @@ double distance(const StrengthVariability& v, std::vector<double> drawn)
   return most;
 }
 
-/// Two bonded grains of these factors, moved apart by u over the step 1 s.
+/// Two bonded particles with these strength factors, moved apart by u [m] in a step of 1 s.
 struct Pulled {
   Scene s;
 
   Pulled(const BondLaw& law, std::vector<double> strength, const Vec3& u)
   {
-    s.p = grains(2);
+    s.p = particles(2);
     s.material.bond = law;
     s.p.strength = std::move(strength);
     s.bond({{0, 1}});
     s.forces(1.0);
     s.move_pair({Vec3::Zero(), u}, {Vec3::Zero(), Vec3::Zero()}, 1.0);
   }
-  /// Loads over 1 - D: on the yield surface once they have left it.
+  /// Load along this direction over 1 - D [N]: on the yield surface once the bond yields.
   double effective(const Vec3& along) const
   {
     const BondReading r = read_bond(s.bonds, 0, s.p, s.cell, s.material.bond);
@@ -75,19 +75,19 @@ struct Pulled {
 
 } // namespace
 
-TEST_CASE("Strength factors follow their law with mean 1 and the variation asked for",
+TEST_CASE("Strength factors follow their distribution with mean 1 and the given variation",
           "[unit][dem]")
 {
   constexpr std::size_t n = 20000;
   for (const Distribution law : {Distribution::log_normal, Distribution::weibull})
     for (const double c : {0.1, 0.3, 0.6}) {
       const StrengthVariability v{law, c, 5};
-      Particles p = grains(n);
+      Particles p = particles(n);
       draw_strengths(v, p);
       const StrengthSpread s = describe_strengths(p);
-      // Four standard errors of the mean, c/sqrt(n) each; of the standard deviation,
-      // sqrt((kurtosis - 1)/(4 n)) of it, kurtosis at most 12 (log-normal, c = 0.6). Measured
-      // 0.003 and 0.01 at most.
+      // Four standard errors: of the mean, c/sqrt(n) each; of the standard deviation,
+      // sqrt((kurtosis - 1)/(4 n)) of it each, kurtosis at most 12 (log-normal, c = 0.6).
+      // Measured 0.003 and 0.01 at most.
       CHECK(s.mean == Approx(1.0).margin(4.0 * c / std::sqrt(n)));
       CHECK(s.variation == Approx(c).epsilon(4.0 * std::sqrt(11.0 / (4.0 * n))));
       // Kolmogorov's bound at the level of 1 %.
@@ -104,12 +104,12 @@ TEST_CASE("Weibull's shape is 1 for the exponential, 2 for Rayleigh's distributi
   CHECK(weibull_shape(1e-4) == Approx(pi / std::sqrt(6.0) * 1e4).epsilon(1e-3));
 }
 
-TEST_CASE("A strength factor is its grain's id and the seed's, whoever else is there",
+TEST_CASE("A strength factor depends only on the id of its particle and the seed",
           "[unit][dem]")
 {
   for (const Distribution law : {Distribution::log_normal, Distribution::weibull}) {
     const StrengthVariability v{law, 0.3, 2};
-    Particles many = grains(50), some = grains(3), again = grains(50);
+    Particles many = particles(50), some = particles(3), again = particles(50);
     some.id = {4, 17, 41};
     draw_strengths(v, many);
     draw_strengths(v, some);
@@ -118,12 +118,12 @@ TEST_CASE("A strength factor is its grain's id and the seed's, whoever else is t
       CHECK(some.strength[k] == many.strength[some.id[k]]);
     CHECK(again.strength[7] != many.strength[7]);
   }
-  Particles none = grains(4);
+  Particles none = particles(4);
   draw_strengths({}, none);
   CHECK(none.strength.empty());
 }
 
-TEST_CASE("A bond yields at its strengths times the mean of its grains' factors",
+TEST_CASE("A bond yields at its strengths times the mean factor of its particles",
           "[unit][dem]")
 {
   const DamageBond law = bond_of_table_1();
@@ -137,7 +137,7 @@ TEST_CASE("A bond yields at its strengths times the mean of its grains' factors"
         Approx(f * law.sigma_t * A).epsilon(1e-10));
   CHECK(Pulled(law, factors, -unit * law.sigma_c * z).effective(z) ==
         Approx(-f * law.sigma_c * A).epsilon(1e-10));
-  // The shear turns the bond by 1e-2, half of which the motion counts, and stretches it.
+  // The shear rotates the bond by 1e-2, half of which the motion counts, and stretches it.
   CHECK(std::abs(Pulled(law, factors, unit * law.kappa * law.C * x).effective(x)) ==
         Approx(f * law.C * A).epsilon(2e-2));
   // Below: elastic, in tension at 0.7 of the law's strength with f = 0.75.
@@ -154,18 +154,18 @@ TEST_CASE("A bond yields at its strengths times the mean of its grains' factors"
   CHECK(Pulled(brittle, {0.4, 0.9}, low * z).s.losses.broken == 1);
 }
 
-TEST_CASE("Each bond of a batch takes the factors of its own grains", "[unit][dem]")
+TEST_CASE("Each bond of a batch takes the factors of its own particles", "[unit][dem]")
 {
   const std::size_t n = n_lanes + 3; // a batch and a part of one
   Scene s;
-  s.p = grains(n + 1);
+  s.p = particles(n + 1);
   std::vector<Pair> pairs;
   for (Index k = 0; k < n; ++k) pairs.push_back({k, k + 1});
   for (std::size_t k = 0; k <= n; ++k)
     s.p.strength.push_back(0.5 + 0.1 * static_cast<double>(k));
   s.bond(pairs);
   const double u = 3.0 * 2.0 * R / 400e6 * 1e6;
-  for (std::size_t k = 0; k <= n; ++k) s.p.body[k].x.z() += u * static_cast<double>(k);
+  for (std::size_t k = 0; k <= n; ++k) s.p.state[k].x.z() += u * static_cast<double>(k);
   s.forces(1.0);
   for (std::size_t b = 0; b < n; ++b) {
     const BondReading r = read_bond(s.bonds, b, s.p, s.cell, s.material.bond);
@@ -174,15 +174,15 @@ TEST_CASE("Each bond of a batch takes the factors of its own grains", "[unit][de
   }
 }
 
-TEST_CASE("Factors of 1 give the bits of a rock without them", "[unit][dem]")
+TEST_CASE("Factors of 1 give the same bits as no factors", "[unit][dem]")
 {
   std::mt19937_64 random(1);
   Scene a;
-  a.p = grains(30);
+  a.p = particles(30);
   std::vector<Pair> pairs;
   for (Index k = 0; k + 1 < 30; ++k) pairs.push_back({k, k + 1});
   a.bond(pairs);
-  for (Body& b : a.p.body) b.v = 3.0 * random_vector(random);
+  for (ParticleState& b : a.p.state) b.v = 3.0 * random_vector(random);
   Scene b = a;
   b.p.strength.assign(30, 1.0);
   for (int step = 0; step < 50; ++step) {
@@ -193,12 +193,12 @@ TEST_CASE("Factors of 1 give the bits of a rock without them", "[unit][dem]")
   CHECK(a.losses.yielded == b.losses.yielded);
   CHECK(a.losses.plastic.value() == b.losses.plastic.value());
   for (std::size_t k = 0; k < 30; ++k) {
-    CHECK(a.p.body[k].x == b.p.body[k].x);
+    CHECK(a.p.state[k].x == b.p.state[k].x);
     CHECK(a.p.load[k].t == b.p.load[k].t);
   }
 }
 
-TEST_CASE("Bonds to a wall and to the mirror image take the factor of their grain",
+TEST_CASE("Bonds to a wall and to the mirror image take the factor of their particle",
           "[unit][dem]")
 {
   const DamageBond law = bond_of_table_1();
@@ -211,9 +211,9 @@ TEST_CASE("Bonds to a wall and to the mirror image take the factor of their grai
 
   Mirror mirror;
   bond_to_mirror(mirror, p, 0.01 * R);
-  const double u = 0.7 * R / law.E * law.sigma_t; // strain over two radii
-  p.body[0].v.y() = u / dt;
-  p.body[0].x.y() += u;
+  const double u = 0.7 * R / law.E * law.sigma_t; // the image doubles it, over two radii
+  p.state[0].v.y() = u / dt;
+  p.state[0].x.y() += u;
   add_mirror_forces({law, no_contact()}, dt, p, mirror, losses);
   CHECK(-p.load[0].f.y() / mirror.pairs[0].bond.intact ==
         Approx(f * law.sigma_t * A).epsilon(1e-9));
@@ -227,16 +227,16 @@ TEST_CASE("Bonds to a wall and to the mirror image take the factor of their grai
     wall.v[k] = Vec3(0.0, 0.0, -u / dt);
     wall.x[k].z() -= u;
   }
-  p.body[0].v.setZero();
+  p.state[0].v.setZero();
   update_normals(wall);
   add_wall_forces(law, true, dt, p, wall, losses);
   CHECK(-p.load[0].f.z() / wall.bonds[0].state.intact ==
         Approx(f * law.sigma_t * A).epsilon(1e-9));
 }
 
-TEST_CASE("A variation of strengths that makes no sense is refused", "[unit][dem]")
+TEST_CASE("A coefficient of variation out of range is refused", "[unit][dem]")
 {
-  Particles p = grains(2);
+  Particles p = particles(2);
   for (const double c : {0.0, -0.1, 1.01, std::numeric_limits<double>::quiet_NaN()}) {
     CHECK_THROWS_AS(draw_strengths({Distribution::weibull, c, 1}, p), mergel::InputError);
     CHECK_NOTHROW(draw_strengths({Distribution::none, c, 1}, p));

@@ -74,7 +74,7 @@ TEST_CASE("columns are found by name and unit, in any order", "[unit][dem]")
   CHECK_FALSE(table.is_last_line_cut);
 }
 
-TEST_CASE("a missing column and a wrong unit are told apart from what is there",
+TEST_CASE("a missing column is refused, and a wrong unit with the unit found",
           "[unit][dem]")
 {
   const File file("time [s],q_c [MPa]\n0,1\n");
@@ -97,7 +97,7 @@ TEST_CASE("the line a run is still writing is left out and reported", "[unit][de
   }
 }
 
-TEST_CASE("a table that a person wrote may end without a newline, and knows its lines",
+TEST_CASE("a hand-written table may end without a newline and keeps its line numbers",
           "[unit][dem]")
 {
   const File file("u [m]\n\n1\n2");
@@ -107,7 +107,7 @@ TEST_CASE("a table that a person wrote may end without a newline, and knows its 
   CHECK_FALSE(table.is_last_line_cut);
 }
 
-TEST_CASE("values that a run did not have are NaN", "[unit][dem]")
+TEST_CASE("missing values are NaN", "[unit][dem]")
 {
   const File file("time [s],a [-],b [-]\n1,nan,\n");
   const Table table = read_table(file.path);

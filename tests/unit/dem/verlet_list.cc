@@ -11,7 +11,7 @@ using namespace mergel::dem::test;
 
 namespace {
 
-/// Colliding, sliding, partly bonded spheres in a periodic cell.
+/// Colliding, sliding, partly bonded particles in a periodic cell.
 Scene gas()
 {
   Scene s;
@@ -23,11 +23,12 @@ Scene gas()
   for (int a = 0; a < 5; ++a)
     for (int b = 0; b < 5; ++b)
       for (int c = 0; c < 5; ++c) {
-        Body body = sphere(0.024 * Vec3(a, b, c) + 0.002 * random_vector(random),
-                           0.008 + 0.004 * u(random));
-        body.v = 4.0 * random_vector(random);
-        body.omega = 100.0 * random_vector(random);
-        s.p.add(body);
+        ParticleState particle =
+            sphere(0.024 * Vec3(a, b, c) + 0.002 * random_vector(random),
+                   0.008 + 0.004 * u(random));
+        particle.v = 4.0 * random_vector(random);
+        particle.omega = 100.0 * random_vector(random);
+        s.p.add(particle);
       }
   auto close = find_pairs(s.p, s.cell, 0.0);
   close.resize(close.size() / 2);
@@ -36,7 +37,7 @@ Scene gas()
 }
 
 struct Outcome {
-  std::vector<Body> body;
+  std::vector<ParticleState> state;
   double slip = 0.0;
   std::size_t builds = 0, broken = 0;
 };
@@ -48,14 +49,14 @@ Outcome run(bool every_step)
   const double dt = 5e-6;
   for (int step = 0; step < 1500; ++step) {
     if (every_step || list.is_stale(s.p)) list.rebuild(s.p, s.cell, s.bonds, s.contacts);
-    const auto before = s.p.body;
+    const auto before = s.p.state;
     s.step(dt);
-    double most = 0.0; // over S = 1
+    double most = 0.0; // motion/S, all S = 1
     for (std::size_t i = 0; i < before.size(); ++i)
-      most = std::max(most, (s.p.body[i].x - before[i].x).norm());
+      most = std::max(most, (s.p.state[i].x - before[i].x).norm());
     list.add_motion(most);
   }
-  return {s.p.body, s.losses.slip.value(), list.n_builds(), s.losses.broken};
+  return {s.p.state, s.losses.slip.value(), list.n_builds(), s.losses.broken};
 }
 
 } // namespace
@@ -71,10 +72,10 @@ TEST_CASE("A rebuild of the list changes no bit of the motion", "[unit][dem]")
   CHECK(std::bit_cast<std::uint64_t>(often.slip) ==
         std::bit_cast<std::uint64_t>(seldom.slip));
   bool same = true;
-  for (std::size_t i = 0; i < often.body.size(); ++i)
-    same = same && often.body[i].x == seldom.body[i].x &&
-           often.body[i].v == seldom.body[i].v &&
-           often.body[i].omega == seldom.body[i].omega;
+  for (std::size_t i = 0; i < often.state.size(); ++i)
+    same = same && often.state[i].x == seldom.state[i].x &&
+           often.state[i].v == seldom.state[i].v &&
+           often.state[i].omega == seldom.state[i].omega;
   CHECK(same);
 }
 
@@ -90,7 +91,7 @@ TEST_CASE("A rebuild keeps the shear of its pairs and leaves bonded pairs out",
   REQUIRE(s.contacts.pairs == std::vector<Pair>{{0, 1}, {2, 3}});
   s.contacts.shear[1].f_s = {0.0, 3.0, 4.0};
 
-  s.p.body[0].x.x() -= 0.01; // leaves the list
+  s.p.state[0].x.x() -= 0.01; // leaves the list
   list.add_motion(0.01);
   CHECK(list.is_stale(s.p));
   list.rebuild(s.p, s.cell, s.bonds, s.contacts);
@@ -102,21 +103,21 @@ TEST_CASE("A rebuild keeps the shear of its pairs and leaves bonded pairs out",
 TEST_CASE("The list is stale when a particle moved by half its skin", "[unit][dem]")
 {
   Particles p;
-  Body b = sphere({0, 0, 0}, 1e-2);
+  ParticleState b = sphere({0, 0, 0}, 1e-2);
   b.S = 2.0; // its skin is twice as wide
   p.add(b);
   p.add(sphere({1, 0, 0}, 1e-2));
   Contacts contacts;
   VerletList list(0.0, 1e-3);
   list.rebuild(p, {}, {}, contacts);
-  p.body[0].x.y() = 0.99e-3;
-  list.add_motion(0.99e-3); // a bound: more than S allows, so the list looks
+  p.state[0].x.y() = 0.99e-3;
+  list.add_motion(0.99e-3); // beyond half the skin at S = 1: the list measures
   CHECK_FALSE(list.is_stale(p));
-  p.body[0].x.y() = 1.01e-3;
+  p.state[0].x.y() = 1.01e-3;
   list.add_motion(0.01e-3);
   CHECK(list.is_stale(p));
-  p.body[0].x.y() = 0.0;
-  CHECK(list.wall_allowance() == Approx(0.5e-3)); // the least skin counts for walls
+  p.state[0].x.y() = 0.0;
+  CHECK(list.wall_allowance() == Approx(0.5e-3)); // the smallest skin counts for walls
   list.invalidate();
   CHECK(list.is_stale(p));
 }

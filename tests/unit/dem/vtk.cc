@@ -78,7 +78,7 @@ vtkSmartPointer<vtkPolyData> read(const fs::path& file)
   return reader->GetOutput();
 }
 
-/// Numbers with all bits in use, and the ones a text format would lose.
+/// Numbers with all bits in use, and numbers that a text format would lose.
 std::vector<double> awkward_numbers(std::size_t n)
 {
   std::mt19937_64 random(7);
@@ -183,7 +183,7 @@ TEST_CASE("a surface keeps its triangles and fields per point", "[unit][dem]")
   CHECK(same_bits(data->GetPointData()->GetArray("force"), force));
 }
 
-TEST_CASE("nothing to show is a readable file with the fields' names", "[unit][dem]")
+TEST_CASE("an empty set gives a readable file with the names of the fields", "[unit][dem]")
 {
   const TemporaryFolder folder;
   write_lines(folder.path / "none.vtp", {}, {}, {{"N", 1, {}}});
@@ -206,7 +206,7 @@ TEST_CASE("sizes, names and indices that do not fit are refused and nothing is w
   CHECK(names_in(folder.path).empty());
 }
 
-TEST_CASE("a full disk throws, names file and reason, and leaves the earlier file whole",
+TEST_CASE("a full disk throws, names file and reason, and leaves the earlier file complete",
           "[unit][dem]")
 {
   const TemporaryFolder folder;
@@ -304,7 +304,7 @@ TEST_CASE("a series lists paths relative to itself and exact times", "[unit][dem
     fs::current_path(here);
     CHECK(listed.at(0).file == "fields/x.vtp");
   }
-  SECTION("and stays whole when the disk is full")
+  SECTION("and stays complete when the disk is full")
   {
     const std::string earlier = contents(folder.path / "particles.pvd");
     {
@@ -316,7 +316,7 @@ TEST_CASE("a series lists paths relative to itself and exact times", "[unit][dem
   }
 }
 
-TEST_CASE("what is no series is refused by name", "[unit][dem]")
+TEST_CASE("a file that is not a series is refused by name", "[unit][dem]")
 {
   const TemporaryFolder folder;
   replace_file(folder.path / "a.pvd",

@@ -24,7 +24,7 @@ struct Bonded {
     p.add(sphere({6e-3, 3e-3, 3.0 * R}, R));
     bond_to_wall(wall, p, 0.05 * R);
   }
-  /// Move the wall as one body and take the force of the bond on the particle.
+  /// Moves the wall rigidly by u [m]; returns the force of the bond on the particle [N].
   Vec3 move_wall(const Vec3& u, bool yields, int steps = 1)
   {
     const double dt = 1.0;
@@ -43,7 +43,7 @@ struct Bonded {
 
 } // namespace
 
-TEST_CASE("Only particles within the limit are bonded to a wall, and unstressed",
+TEST_CASE("Only particles within the limit are bonded to a wall, without stress",
           "[unit][dem]")
 {
   Bonded s;
@@ -55,14 +55,14 @@ TEST_CASE("Only particles within the limit are bonded to a wall, and unstressed"
   CHECK(s.move_wall(Vec3::Zero(), true).norm() < 1e-12);
 }
 
-TEST_CASE("A wall bond pulls with E A/R and drags with a kappa-th of it", "[unit][dem]")
+TEST_CASE("A wall bond has the stiffness E A/R, and 1/kappa of it in shear", "[unit][dem]")
 {
   const double A = pi * R * R / 9.0, k_n = 400e6 * A / R;
   Bonded s;
   CHECK(s.move_wall({0, 0, -1e-6}, false).z() == Approx(-k_n * 1e-6).epsilon(1e-9));
   Bonded t;
   const Vec3 f = t.move_wall({1e-8, 0, 0}, false);
-  CHECK(f.x() == Approx(0.5 * k_n * 1e-8).epsilon(1e-5)); // the bond tilts by 3e-6
+  CHECK(f.x() == Approx(0.5 * k_n * 1e-8).epsilon(1e-5)); // the bond rotates by 3e-6
   CHECK(t.p.load[0].t.y() == Approx(-1.01 * R * f.x()).epsilon(1e-5));
 }
 
@@ -82,12 +82,12 @@ TEST_CASE("A wall bond that may not yield stays elastic, the other one softens a
   CHECK(t.p.n_bonds[0] == 0);
 }
 
-TEST_CASE("The reaction of a wall bond goes to the nodes with force and moment",
+TEST_CASE("The reaction of a wall bond at the nodes balances force and moment",
           "[unit][dem]")
 {
   Bonded s;
   const Vec3 on_particle = s.move_wall({1e-6, 2e-6, -1e-6}, false);
-  Vec3 force = on_particle, moment = s.p.body[0].x.cross(on_particle) + s.p.load[0].t;
+  Vec3 force = on_particle, moment = s.p.state[0].x.cross(on_particle) + s.p.load[0].t;
   for (std::size_t n = 0; n < s.wall.x.size(); ++n) {
     force += s.wall.f[n].value();
     moment += s.wall.x[n].cross(s.wall.f[n].value());

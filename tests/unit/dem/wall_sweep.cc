@@ -12,23 +12,24 @@ namespace {
 constexpr double R = 1e-3;
 const LinearMaterial law = contact(1e9, 2.0, 0.3, 2e-5);
 
-/// Two triangles over the unit square of 10 mm, folded along their diagonal by this angle
-/// [rad]: up towards the rock (a valley) for positive angles.
+/// Two triangles over a square of 10 mm, folded along their diagonal by this angle [rad],
+/// up towards the particles (a valley) for positive angles.
 Wall folded_square(double angle)
 {
   const double a = 10e-3;
   const Vec3 hinge = Vec3(1.0, 1.0, 0.0).normalized();
   const Vec3 corner(0.0, a, 0.0);
-  const Vec3 turned = Eigen::AngleAxisd(angle, hinge) * corner;
-  return make_wall({{0, 0, 0}, {a, 0, 0}, {a, a, 0}, turned}, {{0, 1, 2}, {0, 2, 3}}, law);
+  const Vec3 folded_corner = Eigen::AngleAxisd(angle, hinge) * corner;
+  return make_wall({{0, 0, 0}, {a, 0, 0}, {a, a, 0}, folded_corner}, {{0, 1, 2}, {0, 2, 3}},
+                   law);
 }
 
-struct Touched {
+struct ContactLoad {
   Vec3 f, t;
 };
 
-/// Force and torque of a frictionless first touch.
-Touched force_at(Wall& wall, const Vec3& x)
+/// Force and torque on a particle at x at the first step of its contact, without friction.
+ContactLoad force_at(Wall& wall, const Vec3& x)
 {
   Particles p;
   p.add(sphere(x, R));
@@ -39,7 +40,7 @@ Touched force_at(Wall& wall, const Vec3& x)
   return {p.load[0].f, p.load[0].t};
 }
 
-/// Largest change of the force along the way, per step, relative to the largest force.
+/// Largest change of the force in one of n steps along the path, over the largest force.
 double largest_jump(Wall& wall, const Vec3& from, const Vec3& to, int n)
 {
   double jump = 0.0, largest = 0.0;
@@ -55,7 +56,7 @@ double largest_jump(Wall& wall, const Vec3& from, const Vec3& to, int n)
 
 } // namespace
 
-TEST_CASE("A sphere swept over the diagonal of a flat wall feels one constant force",
+TEST_CASE("A particle swept over the diagonal of a flat wall has one constant force",
           "[unit][dem]")
 {
   Wall wall = folded_square(0.0);
@@ -69,11 +70,11 @@ TEST_CASE("A sphere swept over the diagonal of a flat wall feels one constant fo
   }
 }
 
-TEST_CASE("A sphere exactly over an edge or a node of a tilted wall never loses it",
+TEST_CASE("A particle exactly over an edge or a node of an inclined wall has one contact",
           "[unit][dem]")
 {
-  // Round-off decides on which side of the edge a centre over it lies; some feature must
-  // answer.
+  // Round-off decides on which side of the edge a centre over it lies; exactly one of
+  // triangle, edge and node must act.
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> u(0.0, 1.0);
   int lost = 0, doubled = 0;
@@ -103,7 +104,7 @@ TEST_CASE("A sphere exactly over an edge or a node of a tilted wall never loses 
   CHECK(doubled == 0);
 }
 
-TEST_CASE("A sphere swept over a fold below 30 degrees feels a continuous force",
+TEST_CASE("The force on a particle swept over a fold below 30 degrees is continuous",
           "[unit][dem]")
 {
   const double degrees = GENERATE(-25.0, -5.0, 5.0, 25.0);
@@ -127,7 +128,7 @@ TEST_CASE("A fold beyond 30 degrees separates patches and each side acts on its 
   CHECK(folded_square(29.0 * pi / 180.0).topology.n_patches == 1);
   CHECK(folded_square(31.0 * pi / 180.0).topology.n_patches == 2);
 
-  // In a right-angled valley the sphere leans on both sides.
+  // In a right-angled valley the particle touches both sides.
   Wall wall = folded_square(pi / 2.0);
   REQUIRE(wall.topology.n_patches == 2);
   const Vec3 n_0 = wall.normals[0], n_1 = wall.normals[1];
@@ -146,29 +147,29 @@ TEST_CASE("Force, moment and power at the nodes balance those on the particle",
   Wall wall = folded_square(degrees * pi / 180.0);
   std::mt19937_64 random(3);
   double worst_force = 0.0, worst_moment = 0.0, worst_power = 0.0;
-  int n_touched = 0, n_shared = 0;
+  int n_in_contact = 0, n_shared = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     Particles p;
     Vec3 x = Vec3(5e-3, 5e-3, 0.97e-3) + 4e-4 * random_vector(random);
     x.z() = 1e-3 - 1e-5 * trial / 2000.0;
     p.add(sphere(x, R));
-    p.body[0].v = 0.1 * random_vector(random);
-    p.body[0].omega = 1e2 * random_vector(random);
+    p.state[0].v = 0.1 * random_vector(random);
+    p.state[0].omega = 1e2 * random_vector(random);
     for (Vec3& v : wall.v) v = 1e-3 * random_vector(random);
     wall.contacts.clear();
     rebuild_wall(wall, p, 1e-4);
-    const auto touch = touch_patch(wall, wall.listed.at(0), p.body[0], 0.0);
-    if (!touch) continue;
-    n_shared += touch->n > 1;
+    const auto geometry = patch_contact(wall, wall.listed.at(0), p.state[0], 0.0);
+    if (!geometry) continue;
+    n_shared += geometry->n > 1;
     double weights = 0.0;
-    for (std::size_t k = 0; k < touch->n; ++k) weights += touch->shares[k].weight;
+    for (std::size_t k = 0; k < geometry->n; ++k) weights += geometry->shares[k].weight;
     CHECK(weights == Approx(1.0).epsilon(1e-14));
     PairLosses losses;
     add_wall_forces({}, false, 1e-6, p, wall, losses);
     const Vec3 on_particle = p.load[0].f;
     if (on_particle.norm() < 1.0)
-      continue; // barely touching: the quantum of the sums shows
-    ++n_touched;
+      continue; // barely touching: the quantum of the sums is not negligible
+    ++n_in_contact;
     Vec3 force = on_particle, moment = x.cross(on_particle) + p.load[0].t;
     double power = 0.0;
     for (std::size_t node = 0; node < wall.x.size(); ++node) {
@@ -179,11 +180,12 @@ TEST_CASE("Force, moment and power at the nodes balance those on the particle",
     }
     worst_force = std::max(worst_force, force.norm() / on_particle.norm());
     worst_moment = std::max(worst_moment, moment.norm() / (on_particle.norm() * R));
-    worst_power = std::max(worst_power, std::abs(power - sum_pushes(wall).power.value()) /
-                                            on_particle.norm());
+    worst_power =
+        std::max(worst_power, std::abs(power - sum_contact_forces(wall).power.value()) /
+                                  on_particle.norm());
   }
   CAPTURE(degrees, n_shared);
-  CHECK(n_touched > 500);
+  CHECK(n_in_contact > 500);
   // The arm is the exact vector to the shared point, so only round-off and the quantum
   // 9e-16 N remain.
   CHECK(worst_force < 1e-12);
@@ -201,7 +203,7 @@ TEST_CASE("A centre on the wrong side of a wall stops the run", "[unit][dem]")
                   mergel::NumericalError); // at the edge
 }
 
-TEST_CASE("Triangles that make no wall are refused", "[unit][dem]")
+TEST_CASE("Triangles that do not form a wall are refused", "[unit][dem]")
 {
   const std::vector<Vec3> x{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}};
   CHECK_NOTHROW(make_topology(x, {{0, 1, 2}, {0, 2, 3}}));

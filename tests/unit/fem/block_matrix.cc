@@ -9,7 +9,7 @@ using namespace mergel::fem;
 TEST_CASE("A product of the block matrix is that of the full symmetric matrix",
           "[unit][fem]")
 {
-  // Couplings 0-1, 0-3, 1-2, 2-3; node 4 stands alone.
+  // Couplings 0-1, 0-3, 1-2, 2-3; node 4 has none.
   BlockMatrix A({{1, 3}, {2}, {3}, {}, {}});
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(15, 15);
   std::srand(7);
@@ -33,7 +33,7 @@ TEST_CASE("A product of the block matrix is that of the full symmetric matrix",
   CHECK(A.n_rows() == 5);
   CHECK(A.n_blocks() == 9);
 
-  Nodal x = Nodal::Zero(4, 5), y = Nodal::Constant(4, 5, 99.0);
+  NodalField x = NodalField::Zero(4, 5), y = NodalField::Constant(4, 5, 99.0);
   x.topRows<3>().setRandom();
   A.multiply(x, y);
   Eigen::VectorXd flat(15);
@@ -45,7 +45,7 @@ TEST_CASE("A product of the block matrix is that of the full symmetric matrix",
   }
 }
 
-TEST_CASE("Rows shared out give the bits of the whole product", "[unit][fem]")
+TEST_CASE("Products of ranges of rows have the bits of the full product", "[unit][fem]")
 {
   // A band of irregular couplings: every row has blocks on both sides of its diagonal.
   const std::uint32_t n = 40;
@@ -59,7 +59,7 @@ TEST_CASE("Rows shared out give the bits of the whole product", "[unit][fem]")
     A.add(i, i, Mat3::Identity());
     for (const std::uint32_t j : upper[i]) A.add(i, j, Mat3::Random());
   }
-  Nodal x = Nodal::Zero(4, n), whole, shared = Nodal::Constant(4, n, 99.0);
+  NodalField x = NodalField::Zero(4, n), whole, shared = NodalField::Constant(4, n, 99.0);
   x.topRows<3>().setRandom();
   A.multiply(x, whole);
   for (const auto& [begin, end] : std::vector<std::pair<std::uint32_t, std::uint32_t>>{
@@ -71,7 +71,7 @@ TEST_CASE("Rows shared out give the bits of the whole product", "[unit][fem]")
 
   std::size_t blocks = 0;
   for (const std::size_t k : A.blocks_by_row()) blocks += k;
-  CHECK(blocks == 2 * A.n_blocks() - n); // each off the diagonal serves two rows
+  CHECK(blocks == 2 * A.n_blocks() - n); // an off-diagonal block counts in two rows
 }
 
 TEST_CASE("A block outside the pattern is refused", "[unit][fem]")

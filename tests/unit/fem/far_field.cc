@@ -56,7 +56,7 @@ TEST_CASE("Each wrong entry of the far field is named with its value", "[unit][f
   CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.cell_size = 1e-6; }),
              Contains("number of cells"));
   CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.growth = 0.9; }),
-             Contains("growth = 0.9"));
+             Contains("mesh growth ratio = 0.9"));
   CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.E = 0.0; }),
              Contains("Young's modulus"));
   CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.rho = -1.0; }),
@@ -69,7 +69,7 @@ TEST_CASE("Each wrong entry of the far field is named with its value", "[unit][f
              Contains("damping = 1"));
 }
 
-TEST_CASE("The interface is one surface, facing the region, on its radius and floor",
+TEST_CASE("The interface is one surface that faces the region, on its radius and floor",
           "[unit][fem]")
 {
   const FarField field(small_chamber());
@@ -131,7 +131,7 @@ TEST_CASE("The interface is its own mirror image in x, nodes and diagonals", "[u
   for (const auto& t : mesh.triangles) CHECK(triangles.count(add(-1.0, t)) == 1);
 }
 
-TEST_CASE("The mesh fills the chamber with sound cells and the cell count announced",
+TEST_CASE("The mesh fills the chamber with well-shaped cells of the number predicted",
           "[unit][fem]")
 {
   for (const double size : {2e-3, 1.2e-3, 0.8e-3}) {
@@ -142,7 +142,7 @@ TEST_CASE("The mesh fills the chamber with sound cells and the cell count announ
     make_far_field_mesh(g, n, mesh);
     CHECK(mesh.n_active_cells() == n.n_cells());
 
-    // Scaled Jacobian, 1 in a box: measured 0.82 to 0.86, in the corners of the core.
+    // Scaled Jacobian, 1 in a cuboid: measured 0.82 to 0.86, in the corners of the core.
     double worst = 1.0;
     for (const auto& cell : mesh.active_cell_iterators())
       for (unsigned int v = 0; v < 8; ++v) {
@@ -169,7 +169,7 @@ TEST_CASE("The mesh fills the chamber with sound cells and the cell count announ
   }
 }
 
-TEST_CASE("The sizes of the small pile give about 950 cells", "[unit][fem]")
+TEST_CASE("The sizes of pile_small.prm give 948 cells", "[unit][fem]")
 {
   const FarFieldLayers n = layers({12.5e-3, 40e-3, 5e-3, 12e-3, 1.2e-3, 1.48});
   CHECK(n.n_around == 12);
@@ -180,7 +180,7 @@ TEST_CASE("The sizes of the small pile give about 950 cells", "[unit][fem]")
   CHECK(n.n_cells() == 948);
 }
 
-TEST_CASE("Far-field output appears complete under its name and nowhere else",
+TEST_CASE("Far-field output is written complete under its name, without other files",
           "[unit][fem]")
 {
   const FarField field(small_chamber());

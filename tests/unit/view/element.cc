@@ -13,10 +13,10 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Edge and volume of a cell along three legs; strains as `mergel element` writes them. The
-/// second leg goes to its stress for two records before its strain counts.
+/// Edge and volume of a cell along three stages; strains as `mergel element` writes them.
+/// The second stage approaches its stress for two records before its strain counts.
 struct State {
-  double leg, z, z_of_leg, V, V_of_leg;
+  double stage, z, z_of_stage, V, V_of_stage;
 };
 const std::vector<State> states{{1, 1.00, 1.00, 1.00, 1.00}, {1, 0.98, 1.00, 0.95, 1.00},
                                 {2, 0.98, 0.98, 0.95, 0.95}, {2, 0.97, 0.98, 0.94, 0.95},
@@ -27,18 +27,23 @@ dem::Table history(double q = 1e6)
 {
   dem::Table t;
   t.file = "history.csv";
-  t.columns = {{"leg", "-", {}},
+  t.columns = {{"stage", "-", {}},
                {"axial strain", "-", {}},
                {"volumetric strain", "-", {}},
-               {"axial strain of the leg", "-", {}},
-               {"volumetric strain of the leg", "-", {}},
+               {"axial strain of the stage", "-", {}},
+               {"volumetric strain of the stage", "-", {}},
                {"p", "Pa", {}},
                {"q", "Pa", {}},
                {"void ratio", "-", {}}};
   for (const State& s : states) {
-    const std::vector<double> row{
-        s.leg, 1.0 - s.z, 1.0 - s.V,      1.0 - s.z / s.z_of_leg, 1.0 - s.V / s.V_of_leg,
-        2e6,   -q,        2.0 * s.V - 1.0};
+    const std::vector<double> row{s.stage,
+                                  1.0 - s.z,
+                                  1.0 - s.V,
+                                  1.0 - s.z / s.z_of_stage,
+                                  1.0 - s.V / s.V_of_stage,
+                                  2e6,
+                                  -q,
+                                  2.0 * s.V - 1.0};
     for (std::size_t c = 0; c < row.size(); ++c) t.columns[c].values.push_back(row[c]);
     t.lines.push_back(++t.n_rows + 1);
   }
@@ -52,40 +57,41 @@ std::vector<Run> run(double q)
 
 } // namespace
 
-TEST_CASE("From leg 2 on strains count from where that leg counts them", "[unit][view]")
+TEST_CASE("From stage 2 on strains count from the start of that stage", "[unit][view]")
 {
-  const dem::Table cut = from_legs(history(), legs_of("2"));
-  CHECK(cut.lines == std::vector<std::size_t>{6, 7, 8, 9}); // not its way to the stress
+  const dem::Table cut = from_stages(history(), stages_of("2"));
+  CHECK(cut.lines == std::vector<std::size_t>{6, 7, 8, 9}); // without its approach
   const auto& axial = cut.column("axial strain", "-");
   const auto& volumetric = cut.column("volumetric strain", "-");
   const std::vector<State> drawn(states.begin() + 4, states.end());
   REQUIRE(cut.n_rows == drawn.size());
-  for (std::size_t k = 0; k < drawn.size(); ++k) { // the next leg goes on from there
+  for (std::size_t k = 0; k < drawn.size(); ++k) { // the next stage continues from there
     CHECK(axial[k] == Approx(1.0 - drawn[k].z / 0.96).margin(1e-14));
     CHECK(volumetric[k] == Approx(1.0 - drawn[k].V / 0.93).margin(1e-14));
   }
-  CHECK(cut.column("axial strain of the leg", "-")[2] == 0.0);
+  CHECK(cut.column("axial strain of the stage", "-")[2] == 0.0);
 }
 
-TEST_CASE("Legs may be cut at both ends, and all are the history itself", "[unit][view]")
+TEST_CASE("The first and the last stage can be chosen, and all are the history itself",
+          "[unit][view]")
 {
-  CHECK(from_legs(history(), legs_of("1-1")).n_rows == 2);
-  CHECK(from_legs(history(), legs_of("1-2")).n_rows == 6);
-  CHECK(from_legs(history(), Legs{}).n_rows == states.size());
-  CHECK_THROWS_WITH(from_legs(history(), legs_of("4")),
-                    Contains("no record of leg 4; the last is 3"));
+  CHECK(from_stages(history(), stages_of("1-1")).n_rows == 2);
+  CHECK(from_stages(history(), stages_of("1-2")).n_rows == 6);
+  CHECK(from_stages(history(), Stages{}).n_rows == states.size());
+  CHECK_THROWS_WITH(from_stages(history(), stages_of("4")),
+                    Contains("no record of stage 4; the last is 3"));
   for (const char* text : {"0", "-1", "2-", "3-2", "2x", "two", ""})
-    CHECK_THROWS_WITH(legs_of(text), Contains("must be the number of a leg"));
+    CHECK_THROWS_WITH(stages_of(text), Contains("must be the number of a stage"));
 }
 
-TEST_CASE("A run is isotropic below a q of 1 % of p, of either sign", "[unit][view]")
+TEST_CASE("A run is isotropic where |q| is below 1 % of p", "[unit][view]")
 {
   CHECK(is_isotropic(run(1.9e4)));
   CHECK_FALSE(is_isotropic(run(2.1e4)));
   CHECK_FALSE(is_isotropic(run(-2.1e4)));
 }
 
-TEST_CASE("Only an element test has leg, p, q and void ratio", "[unit][view]")
+TEST_CASE("Only an element test has stage, p, q and void ratio", "[unit][view]")
 {
   CHECK(is_element_history(history()));
   dem::Table pile = history();
@@ -93,11 +99,11 @@ TEST_CASE("Only an element test has leg, p, q and void ratio", "[unit][view]")
   CHECK_FALSE(is_element_history(pile));
 }
 
-TEST_CASE("Titles say from which leg a strain counts", "[unit][view]")
+TEST_CASE("Titles name the stage from which a strain counts", "[unit][view]")
 {
-  const auto plots = element_plots(run(1e6), legs_of("2"));
+  const auto plots = element_plots(run(1e6), stages_of("2"));
   REQUIRE(plots.size() == 4);
-  CHECK(plots[0].x.title() == "axial strain from leg 2 on (%)");
+  CHECK(plots[0].x.title() == "axial strain from stage 2 on (%)");
   CHECK(plots[0].y.title() == "q (MPa)");
   CHECK(element_plots(run(1e6), {})[0].x.title() == "axial strain (%)");
   CHECK(isotropic_plots(run(0.0), {})[1].x_reach == Reach::decades);

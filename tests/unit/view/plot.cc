@@ -23,7 +23,7 @@ using Ends = std::pair<double, double>;
 
 } // namespace
 
-TEST_CASE("An axis holds 0 or keeps to its values, and ends on round numbers",
+TEST_CASE("An axis includes 0 or covers its values alone, and ends on round numbers",
           "[unit][view]")
 {
   CHECK(ends(Reach::from_zero, {3.1, 4.1}) == Ends{0.0, 5.0});
@@ -35,7 +35,7 @@ TEST_CASE("An axis holds 0 or keeps to its values, and ends on round numbers",
   CHECK((constant.first < 0.5 && constant.second > 0.5 && constant.second < 0.6));
 }
 
-TEST_CASE("A logarithmic axis shows three decades at most, and only what is positive",
+TEST_CASE("A logarithmic axis shows three decades at most, and positive values only",
           "[unit][view]")
 {
   const auto close = [](const Ends& a, double from, double to) {
@@ -55,7 +55,7 @@ TEST_CASE("Equal ratios are equal lengths on a logarithmic axis", "[unit][view]"
   CHECK(axis.at(100.0, 200.0, 10.0) == 300.0);
 }
 
-TEST_CASE("Numbers stand at 1, 2, 5 up to two decades, beyond at powers of ten",
+TEST_CASE("Ticks have numbers at 1, 2, 5 up to two decades, beyond at powers of ten",
           "[unit][view]")
 {
   const auto n_numbers = [](double from, double to) {
@@ -70,7 +70,7 @@ TEST_CASE("Numbers stand at 1, 2, 5 up to two decades, beyond at powers of ten",
   CHECK(n_numbers(0.001, 1000.0) == 7);
 }
 
-TEST_CASE("Eight runs have eight colours, 40 their own stroke, ten series their mark",
+TEST_CASE("Eight runs have eight colours, 40 have 40 strokes, ten series have ten marks",
           "[unit][view]")
 {
   std::set<Colour> colours;

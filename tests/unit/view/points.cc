@@ -30,19 +30,20 @@ Points points(const std::string& contents)
   return read_points(file, Mark::square);
 }
 
-Quantity axis(const std::string& name, const std::string& unit, const std::string& base)
+PlotQuantity axis(const std::string& name, const std::string& unit, const std::string& base)
 {
-  Quantity q = quantity_of(name);
+  PlotQuantity q = quantity_of(name);
   q.unit = unit;
   q.base = base;
   return q;
 }
-const Quantity p = axis("p", "MPa", "Pa"), q = axis("q", "MPa", "Pa"),
-               e = axis("void ratio", "-", "-");
+const PlotQuantity p = axis("p", "MPa", "Pa"), q = axis("q", "MPa", "Pa"),
+                   e = axis("void ratio", "-", "-");
 
 } // namespace
 
-TEST_CASE("Points come to the units of the axes, whichever column is first", "[unit][view]")
+TEST_CASE("Points are converted to the units of the axes, in any order of columns",
+          "[unit][view]")
 {
   const auto shown = on_axes(points("# yield\nq [kPa],p\n500,2\n1500,3\n"), p, q);
   REQUIRE(shown);
@@ -58,7 +59,7 @@ TEST_CASE("Points are named by their remark, else by their file", "[unit][view]"
   CHECK_THAT(points("p,q\n1,2").label, Catch::Matchers::StartsWith("mergel-points-"));
 }
 
-TEST_CASE("Points are laid on the panel of their names alone", "[unit][view]")
+TEST_CASE("Points are drawn on the panel of their names only", "[unit][view]")
 {
   const Points yield = points("p [MPa],q [MPa]\n1,2\n");
   CHECK_FALSE(on_axes(yield, p, e));

@@ -26,10 +26,10 @@ dem::Table history()
   return t;
 }
 
-Quantity settled(const std::string& text)
+PlotQuantity settled(const std::string& text)
 {
   const dem::Table t = history();
-  Quantity q = quantity_of(text);
+  PlotQuantity q = quantity_of(text);
   settle(q, {&t});
   return q;
 }
@@ -46,7 +46,7 @@ std::string refusal(const std::string& text)
 
 } // namespace
 
-TEST_CASE("Stresses are drawn in MPa, strains in per cent, energies as fits",
+TEST_CASE("Stresses are drawn in MPa, strains in per cent, energies with a prefix",
           "[unit][view]")
 {
   CHECK(settled("q").title() == "q (MPa)");
@@ -58,7 +58,7 @@ TEST_CASE("Stresses are drawn in MPa, strains in per cent, energies as fits",
         std::vector<double>{0.0, 1.0, 2.0});
 }
 
-TEST_CASE("A unit that is written is the one that is drawn", "[unit][view]")
+TEST_CASE("A unit that is given is the one that is drawn", "[unit][view]")
 {
   CHECK(settled("q [Pa]").title() == "q (Pa)");
   CHECK(values_of(history(), settled("q [kPa]")) == std::vector<double>{500, 3000, 2000});
@@ -67,10 +67,9 @@ TEST_CASE("A unit that is written is the one that is drawn", "[unit][view]")
   CHECK(settled("log p").is_logarithmic);
 }
 
-TEST_CASE("A/B is the ratio of two columns, and nothing where B nearly vanishes",
-          "[unit][view]")
+TEST_CASE("A/B is the ratio of two columns, and NaN where B is near zero", "[unit][view]")
 {
-  const Quantity eta = settled("q/p");
+  const PlotQuantity eta = settled("q/p");
   CHECK(eta.unit == "-");
   const std::vector<double> values = values_of(history(), eta);
   CHECK(std::isnan(values[0])); // p = 1 Pa is 5e-7 of the largest

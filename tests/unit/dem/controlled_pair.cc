@@ -1,4 +1,4 @@
-#include "dem/element/driven_pair.h"
+#include "dem/element/controlled_pair.h"
 #include "tests/support/dem_scene.h"
 
 #include <catch2/catch.hpp>
@@ -8,17 +8,17 @@ using namespace mergel::dem::test;
 
 namespace {
 
-DrivenPairSpec unequal_spheres(const BondLaw& bond)
+ControlledPairSpec unequal_particles(const BondLaw& bond)
 {
   return {30e-3, 50e-3, 1.0, 1e-3, {bond, contact(400e6, 2.0, 0.5, 0.0)}};
 }
 
 } // namespace
 
-TEST_CASE("A driven pair of unequal spheres feels the imposed motion and nothing else",
+TEST_CASE("The loads of a controlled pair follow from the imposed motion alone",
           "[unit][dem]")
 {
-  DrivenPair pair(unequal_spheres(unbreakable_bond()));
+  ControlledPair pair(unequal_particles(unbreakable_bond()));
   const BondShape<double> k = pair.shape();
   const RelativeMotion corners[] = {{1e-4, 0, 0}, {1e-4, 2e-4, 0}, {-3e-4, 2e-4, 5e-3}};
   for (const RelativeMotion& to : corners) {
@@ -28,7 +28,7 @@ TEST_CASE("A driven pair of unequal spheres feels the imposed motion and nothing
       pair.move_to({from.u_n + t * (to.u_n - from.u_n), from.u_s + t * (to.u_s - from.u_s),
                     from.theta + t * (to.theta - from.theta)});
     }
-    const DrivenPairReading r = pair.read();
+    const ControlledPairReading r = pair.read();
     // Round-off of 30 sums, and of a gap that is 1/800 of the distance.
     CHECK(r.N == Approx(k.k_n * to.u_n).epsilon(1e-11));
     CHECK(r.V == Approx(k.k_s * to.u_s).epsilon(1e-12).margin(1e-15));
@@ -42,27 +42,27 @@ TEST_CASE("A driven pair of unequal spheres feels the imposed motion and nothing
   CHECK(pair.read().f_n == 0.0); // gap 0.7 mm
 }
 
-TEST_CASE("A leg without motion changes no bit of a damaged pair", "[unit][dem]")
+TEST_CASE("A loading stage without motion changes no bit of a damaged pair", "[unit][dem]")
 {
-  DrivenPair pair(unequal_spheres(bond_of_table_1()));
+  ControlledPair pair(unequal_particles(bond_of_table_1()));
   for (int n = 1; n <= 10; ++n) pair.move_to({2.2e-5 * n, 1e-5 * n, 0});
-  const DrivenPairReading before = pair.read();
+  const ControlledPairReading before = pair.read();
   REQUIRE(before.D > 0.1);
   REQUIRE(before.D < 0.9);
   for (int n = 0; n < 100; ++n) pair.move_to(pair.motion());
-  const DrivenPairReading after = pair.read();
+  const ControlledPairReading after = pair.read();
   CHECK(after.N == before.N);
   CHECK(after.V == before.V);
   CHECK(after.M == before.M);
   CHECK(after.D == before.D);
 }
 
-TEST_CASE("A pair whose bond is gone reads zero loads and the plastic motion it had",
+TEST_CASE("A pair with a broken bond reports zero loads and its plastic motion at breakage",
           "[unit][dem]")
 {
-  DrivenPair pair(unequal_spheres(bond_of_table_1()));
+  ControlledPair pair(unequal_particles(bond_of_table_1()));
   for (int n = 1; n <= 200; ++n) pair.move_to({n * 5e-6, 0, 0});
-  const DrivenPairReading gone = pair.read();
+  const ControlledPairReading gone = pair.read();
   CHECK(gone.D == 1.0);
   CHECK(gone.N == 0.0);
   CHECK(gone.u_p.u_n > 4.5 * 1e-4); // 4.6 u_c at D = 0.99, less one step
@@ -74,11 +74,11 @@ TEST_CASE("A pair whose bond is gone reads zero loads and the plastic motion it 
   CHECK(pair.read().N == 0.0);
 }
 
-TEST_CASE("The work on a driven pair is stored or dissipated, through breakage",
+TEST_CASE("The work on a controlled pair is stored or dissipated, also at breakage",
           "[unit][dem]")
 {
   const auto error = [](int n) {
-    DrivenPair pair(unequal_spheres(bond_of_table_1()));
+    ControlledPair pair(unequal_particles(bond_of_table_1()));
     const RelativeMotion corners[] = {{2e-4, 2e-4, 2e-3}, {-2e-4, -3e-4, 3e-3}, {0, 0, 0}};
     for (const RelativeMotion& to : corners) {
       const RelativeMotion from = pair.motion();
@@ -91,8 +91,8 @@ TEST_CASE("The work on a driven pair is stored or dissipated, through breakage",
     }
     return std::abs(pair.work() - pair.read().stored - pair.dissipated()) / pair.work();
   };
-  // The loss is the trapezoidal work less what is stored, so round-off is left: 1e-12 of the
-  // distance of the centres in a gap of 2e-4 m.
+  // The loss is the trapezoidal work less the stored energy, so only round-off is left:
+  // 1e-12 of the distance of the centres in a gap of 2e-4 m.
   CHECK(error(100) < 1e-10);
   CHECK(error(1000) < 1e-10);
 }
