@@ -88,6 +88,23 @@ edited case.prm 's/set diameter( *=.*mm)/set diametre\1/'
 refuse "unknown key" 'case\.prm:[0-9]+: (Pile|Specimen)/diametre = .*: unknown key .*"diameter".*' \
   pile case.prm --output out
 edited case.prm 's/subsection Pile/subsection Piles/'
+# Former names: pile, element and bond.
+while IFS='|' read -r job former value now; do
+  refuse "the former name $former" "--set $former = .*: this key is now \`$now\`\. Rename it\." "$job" \
+    "$root/apps/cases/$(case $job in pile) echo pile_small ;; element) echo element_small ;; bond) echo bond_fig5a ;; esac).prm" \
+    --set "$former=$value"
+done <<'NAMES'
+pile|Bond/broken at damage|0.9|damage at breakage
+pile|Motion/balance|1e-3|unbalanced-force tolerance
+pile|Far field/growth|1.4|mesh growth ratio
+pile|Far field/lip|1 mm|collar height
+pile|Pile/velocity|1 m/s|penetration rate
+element|Loading/leg 2|triaxial to axial strain = 2 %|stage 2
+element|Size effect/sample width|10 mm|specimen width
+bond|Loading/steps per leg|10|steps per stage
+NAMES
+refuse "the former section Spheres" '--set Spheres/radius = 1 mm: the section "Spheres" is now "Particles"\. Rename it\.' \
+  bond "$root/apps/cases/bond_fig5a.prm" --set "Spheres/radius=1 mm"
 refuse "unknown section" 'case\.prm:[0-9]+: unknown section "Piles"\. Did you mean "Pile"\?' \
   pile case.prm --output out
 edited case.prm '/subsection Pile/,/end/s/(set diameter *= *[0-9.]+) *[a-z]+/\1/'
@@ -111,7 +128,7 @@ refuse "key given twice" 'case\.prm:[0-9]+: Pile/diameter = 2 mm: already set in
 place='((good\.prm(:[0-9]+)?: )|--set )'
 refuse_set "porosity that particles cannot reach" "${place}Specimen/porosity = 0\.2: .*" \
   "Specimen/porosity=0.2"
-refuse_set "porosity that only pressure reaches" "${place}Specimen/porosity = 0\.485: .*between some 0\.[0-9]+ and 1; .*" \
+refuse_set "porosity that only pressure reaches" "${place}Specimen/porosity = 0\.485: .*from about 0\.[0-9]+ to 1; .*" \
   "Specimen/porosity=0.485" "Specimen/diameter=6 mm" "Specimen/height=6 mm"
 refuse_set "particles too large for the region" "${place}Specimen/inner upscaling = 20: .*" \
   "Specimen/inner upscaling=20"

@@ -149,7 +149,8 @@ rm -rf none elsewhere/*
 rm -rf g; cp -r b g
 "$mergel" pile --restart g >log_of_first 2>&1 &
 first=$!
-wait_for "g/.mergel.lock"
+launched=$first
+wait_for exists "g/.mergel.lock"
 kill -STOP $first
 [ "$(code_of pile --restart g)" -eq 1 ] || fail "two runs in a folder: $(cat log)"
 grep -q "output folder g: another run (process $first on .*) is writing there" log || fail "two runs in a folder: $(cat log)"
