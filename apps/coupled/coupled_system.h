@@ -101,7 +101,7 @@ private:
 
   std::string where() const; ///< step and time, for messages
 
-  double spent_before_ = 0.0; ///< computing time at the last even_out() [s]
+  double spent_before_ = 0.0; ///< computing time at the last balance_load() [s]
 };
 
 /// The far field of a case. Sets in `c` the number of faces of its side, inside which the

@@ -36,7 +36,7 @@ struct Test {
   std::optional<ElementHistory> history; ///< on the first rank
   std::optional<ElementPictures> pictures;
   std::vector<dem::ElementRecord> records;
-  std::vector<dem::Outcome> outcomes; ///< of stages begun; of the present one broke_off
+  std::vector<dem::Outcome> outcomes; ///< of stages begun; of the present one unstable
   double seconds_before = 0.0;        ///< wall-clock time of earlier starts
 
   void add(const dem::ElementRecord& r)

@@ -131,7 +131,7 @@ private:
   ElementState state_;
 };
 
-/// Skin of the lists at S = 1 [m]: usual_skin times the smallest diameter at S = 1.
+/// Skin of the lists at S = 1 [m]: default_skin times the smallest diameter at S = 1.
 double list_skin(const Particles& p);
 
 } // namespace mergel::dem

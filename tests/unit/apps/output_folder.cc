@@ -193,7 +193,7 @@ TEST_CASE("A folder that cannot be written is refused before it is used", "[unit
              Contains("cannot be written: Permission denied"));
 }
 
-TEST_CASE("cut_back() removes what a run wrote after its checkpoint, and nothing else",
+TEST_CASE("remove_after() removes what a run wrote after its checkpoint, and nothing else",
           "[unit][apps]")
 {
   const TemporaryFolder folder;
