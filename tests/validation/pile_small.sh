@@ -3,13 +3,7 @@
 # source; about six minutes on one core.
 #
 # usage: tests/validation/pile_small.sh MERGEL
-set -euo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
-mergel=$(readlink -f "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-case_file=$root/apps/cases/pile_small.prm
+. "$(dirname "$0")/../program/preamble.sh"
 n_failed=0
 
 "$mergel" pile "$case_file" --output elastic >elastic.log || { cat elastic.log; exit 1; }
