@@ -224,7 +224,7 @@ rm -rf e; cp -r a e
 rm "$(ls e/fields/bonds_* | head -1)"
 [ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q 'bonds_0000.vtp: is missing' log || fail "info of a lost frame: $(cat log)"
 rm -rf e; cp -r b e; cp "e/$name" "e/$name.aside"
-flock e/.mergel.lock bash -c 'touch held; until [ -e release ]; do sleep 0.05; done' &
+flock e/.mergel.lock bash -c 'touch held; until [ -e release ] || [ ! -e held ]; do sleep 0.05; done' &
 launched=$!
 wait_for exists held
 "$mergel" info e >info || fail "info: $(cat info)"
