@@ -43,7 +43,7 @@
 ///   collective              to be called on all ranks, at the same point of a run
 ///   energy balance          growth of the stored energy = input - loss, but for an error
 ///   stored energy           kinetic, of bonds, contacts, walls and mirror images
-///   input                   work of gravity, moving walls, pile, strain-controlled cell
+///   input                   work of gravity, walls, strain-controlled cell
 ///   loss                    friction, plasticity and damage, the next two, local damping
 ///   breakage release        energy released at bond breakage, still stored until then
 ///   rotation constraint     no spin without an intact bond; the spin energy is lost

@@ -74,11 +74,11 @@ void CoupledSystem::save(dem::State& state) const
 }
 
 CoupledSystem::CoupledSystem(const CoupledCase& c, dem::State& state,
-                             std::vector<dem::PileWall> piles, fem::FarField field,
+                             std::vector<dem::RigidWall> rigid_walls, fem::FarField field,
                              coupling::Interface interface)
     : CoupledSystem(c, std::move(field), std::move(interface))
 {
-  assembly.piles = std::move(piles);
+  assembly.rigid_walls = std::move(rigid_walls);
   dem::load(state, assembly);
   dem::draw_strengths(c.strengths, assembly.particles);
   far_field.restore(load_motion(state, far_field.motion()));

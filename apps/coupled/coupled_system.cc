@@ -20,7 +20,7 @@ std::vector<double> interface_springs(const dem::Assembly& assembly,
 {
   // From the present positions: the result must not depend on when the lists were built.
   dem::Wall wall = assembly.walls.front();
-  dem::rebuild_wall(wall, assembly.particles, assembly.list.skin());
+  dem::rebuild_wall(wall, assembly.material, assembly.particles, assembly.list.skin());
   std::vector<dem::ForceSum> sums(wall.x.size()); // [N/m]
   const auto add = [&](int triangle, const dem::Vec3& weight, double k) {
     const dem::Triangle& t = wall.topology.triangles[static_cast<std::size_t>(triangle)];
@@ -71,11 +71,11 @@ CoupledSystem::CoupledSystem(const CoupledCase& c, fem::FarField field,
 {
   assembly.material = c.material;
   assembly.motion = {dem::Vec3(0.0, 0.0, -c.gravity), c.damping, c.free_rotation};
-  assembly.list = dem::VerletList(c.material.contact.g_a,
-                                  dem::skin_under_pile * c.specimen.sizes.smallest());
+  assembly.list = dem::VerletList(c.material.contact.g_a, dem::skin_under_penetration *
+                                                              c.specimen.sizes.smallest());
   assembly.mirrors.emplace_back();
   assembly.walls.push_back(std::move(interface.wall));
-  assembly.wall_bonds_yield = c.interface_bond == InterfaceBond::breakable;
+  assembly.walls.back().bonds_yield = c.interface_bond == InterfaceBond::breakable;
 }
 
 CoupledSystem::CoupledSystem(const CoupledCase& c, const dem::Sample& sample,

@@ -37,10 +37,11 @@ struct CoupledSystem {
   CoupledSystem(const CoupledCase& c, const dem::Sample& sample, fem::FarField far_field,
                 coupling::Interface interface);
   /// As it was when save() wrote the state; collective. Empties the state.
-  /// @param piles those that it had then
+  /// @param rigid_walls those that it had then
   /// @throws InputError when the state is of another system
-  CoupledSystem(const CoupledCase& c, dem::State& state, std::vector<dem::PileWall> piles,
-                fem::FarField far_field, coupling::Interface interface);
+  CoupledSystem(const CoupledCase& c, dem::State& state,
+                std::vector<dem::RigidWall> rigid_walls, fem::FarField far_field,
+                coupling::Interface interface);
   CoupledSystem(const CoupledSystem&) = delete;
   CoupledSystem& operator=(const CoupledSystem&) = delete;
 

@@ -23,9 +23,10 @@ void append(Numbers& all, Matrix& m)
 template <class Numbers, class Balance>
 void append_balance(Numbers& all, Balance& e)
 {
-  all.insert(all.end(), {&e.kinetic, &e.bonds, &e.contacts, &e.walls, &e.mirror, &e.gravity,
-                         &e.wall_work, &e.pile_work, &e.cell_work, &e.slip, &e.plastic,
-                         &e.breakage_release, &e.rotation_constraint, &e.damping});
+  all.insert(all.end(),
+             {&e.kinetic, &e.bonds, &e.contacts, &e.walls, &e.mirror, &e.gravity,
+              &e.wall_work, &e.rigid_wall_work, &e.cell_work, &e.slip, &e.plastic,
+              &e.breakage_release, &e.rotation_constraint, &e.damping});
 }
 
 template <class Self>

@@ -13,14 +13,15 @@ namespace mergel::apps {
 
 void BreakageCount::collect(dem::Assembly& assembly)
 {
-  const dem::Pile& pile = assembly.piles.front().pile;
-  const double D = 2.0 * pile.R;
+  const dem::RigidWall& pile = assembly.rigid_walls.front();
+  const auto& shape = std::get<dem::Revolution>(pile.shape);
+  const double R = shape.R(), D = 2.0 * R, z_shoulder = pile.x.z() + shape.tip_height();
   std::size_t n_near = 0, n_above = 0;
   for (const dem::Breakage& b : assembly.losses.breakages) {
     const dem::Vec3& x = b.x;
-    const double r = std::hypot(x.x() - pile.x_axis, x.y() - pile.y_axis);
+    const double r = std::hypot(x.x() - pile.x.x(), x.y() - pile.x.y());
     n_near += r <= 2.0 * D;
-    n_above += x.z() > pile.z_shoulder() + D && r > pile.R;
+    n_above += x.z() > z_shoulder + D && r > R;
   }
   all += assembly.comm.global_sum(assembly.losses.breakages.size());
   near += assembly.comm.global_sum(n_near);
@@ -28,20 +29,20 @@ void BreakageCount::collect(dem::Assembly& assembly)
   assembly.losses.breakages.clear();
 }
 
-void MeanForce::add(const dem::PileLoad& load)
+void MeanForce::add(const dem::RigidWall& pile)
 {
-  cone += load.cone.z.value();
-  shaft += load.shaft.z.value();
+  tip += pile.force[dem::Revolution::tip].z.value();
+  shaft += pile.force[dem::Revolution::shaft].z.value();
   ++n;
 }
 
-dem::PileWall make_pile(const PileCase& c)
+dem::RigidWall make_pile(const PileCase& c)
 {
-  dem::PileWall pile;
-  pile.pile.R = 0.5 * c.diameter;
-  pile.pile.cone_height = c.cone_height();
-  pile.material = c.contact;
-  return pile;
+  const double R = 0.5 * c.diameter;
+  return dem::make_rigid_wall(c.tip == PileCase::Tip::flat
+                                  ? dem::flat_ended(R)
+                                  : dem::cone_ended(R, c.tip_height()),
+                              dem::Vec3::Zero(), c.contact);
 }
 
 Installation::Installation(const PileCase& c, CoupledSystem& coupled, PileOutput* output)
@@ -52,7 +53,7 @@ Installation::Installation(const PileCase& c, CoupledSystem& coupled, PileOutput
 void Installation::begin()
 {
   start_ = coupled_.energy_balances();
-  coupled_.assembly.piles.push_back(make_pile(case_));
+  coupled_.assembly.rigid_walls.push_back(make_pile(case_));
   coupled_.assembly.list.invalidate();
   dem::add_forces(coupled_.assembly, 0.0);
   count_bonds();
@@ -75,15 +76,15 @@ void Installation::count_bonds()
 
 void Installation::run(const std::function<void()>& after_step)
 {
-  dem::Pile& pile = coupled_.assembly.piles.front().pile;
+  dem::RigidWall& pile = coupled_.assembly.rigid_walls.front();
   Progress progress("penetration");
   while (travelled() < rate_.travel()) {
     coupled_.step([&](double dt) {
-      pile.v_z = -rate_.velocity(travelled());
-      pile.z_tip += dt * pile.v_z;
+      pile.v.z() = -rate_.velocity(travelled());
+      pile.x.z() += dt * pile.v.z();
     });
     time_ += coupled_.dt_before;
-    force_.add(coupled_.assembly.piles.front().load);
+    force_.add(pile);
     if (coupled_.n_steps % dem::steps_between_step_checks == 0)
       dem::check_overlaps(coupled_.assembly);
 
@@ -105,7 +106,7 @@ void Installation::run(const std::function<void()>& after_step)
 
 double Installation::travelled() const
 {
-  return -coupled_.assembly.piles.front().pile.z_tip;
+  return -coupled_.assembly.rigid_walls.front().x.z();
 }
 
 void Installation::frame()
@@ -130,8 +131,8 @@ PileRecord Installation::new_record(const CoupledSystem::EnergyBalances& energy_
   PileRecord r;
   r.time = time_;
   r.tip_depth = travelled();
-  r.depth = r.tip_depth - case_.cone_height();
-  r.F_tip = half_to_full * force_.cone / static_cast<double>(force_.n);
+  r.depth = r.tip_depth - case_.tip_height();
+  r.F_tip = half_to_full * force_.tip / static_cast<double>(force_.n);
   r.F_shaft = half_to_full * force_.shaft / static_cast<double>(force_.n);
   r.q_c = r.F_tip / area;
   breakage_.collect(coupled_.assembly);
@@ -141,7 +142,7 @@ PileRecord Installation::new_record(const CoupledSystem::EnergyBalances& energy_
   r.kinetic = energy_balances.assembly.kinetic;
   r.interface = coupled_.balance();
   r.balance = energy_balances.assembly;
-  r.balance.pile_work -= start_.assembly.pile_work;
+  r.balance.rigid_wall_work -= start_.assembly.rigid_wall_work;
   r.balance.plastic -= start_.assembly.plastic;
   r.balance.breakage_release -= start_.assembly.breakage_release;
   r.balance.slip -= start_.assembly.slip;
@@ -150,7 +151,7 @@ PileRecord Installation::new_record(const CoupledSystem::EnergyBalances& energy_
   // The energy stored at the start counts as input: the tip touches the first particle only
   // after some travel.
   const double input = start_.assembly.stored() +
-                       std::abs(energy_balances.assembly.pile_work) +
+                       std::abs(energy_balances.assembly.rigid_wall_work) +
                        std::abs(energy_balances.assembly.gravity - start_.assembly.gravity);
   const double error = CoupledSystem::unexplained(energy_balances, start_);
   r.energy_error = input > 0.0 ? error / input : 0.0;

@@ -24,14 +24,14 @@ public:
 
 /// Mean pile forces between two records.
 struct MeanForce {
-  double cone = 0.0, shaft = 0.0;
+  double tip = 0.0, shaft = 0.0;
   std::size_t n = 0;
 
-  void add(const dem::PileLoad& load);
+  void add(const dem::RigidWall& pile);
 };
 
 /// The pile with its tip at the surface, at rest.
-dem::PileWall make_pile(const PileCase& c);
+dem::RigidWall make_pile(const PileCase& c);
 
 /// Pushes the pile down and records forces and energies. Member functions are collective,
 /// except those that only return a value.
@@ -46,7 +46,7 @@ public:
   /// Depth of the tip in that state [m].
   static double travelled_in(const dem::State& state)
   {
-    return -state.get_rows<double>("pile0_place", 1, 6)[4];
+    return -state.get_rows<double>("rigid0_x", 1, 3)[2];
   }
 
   /// Place the pile with its tip at the surface of the system in equilibrium.

@@ -10,17 +10,18 @@ template <class Self>
 auto Installation::numbers_of(Self& self)
 {
   using Number = std::conditional_t<std::is_const_v<Self>, const double, double>;
-  std::vector<Number*> all{&self.time_,        &self.q_peak_,     &self.worst_energy_error_,
-                           &self.next_record_, &self.force_.cone, &self.force_.shaft};
+  std::vector<Number*> all{&self.time_,        &self.q_peak_,    &self.worst_energy_error_,
+                           &self.next_record_, &self.force_.tip, &self.force_.shaft};
   for (auto* b : {&self.worst_interface_, &self.last_.interface})
     all.insert(all.end(), {&b->force, &b->moment, &b->power});
   auto& r = self.last_;
   all.insert(all.end(), {&r.time, &r.depth, &r.tip_depth, &r.F_tip, &r.F_shaft, &r.q_c,
                          &r.unbalanced, &r.kinetic, &r.energy_error});
   for (auto* e : {&self.start_.assembly, &self.last_.balance})
-    all.insert(all.end(), {&e->kinetic, &e->bonds, &e->contacts, &e->walls, &e->mirror,
-                           &e->gravity, &e->wall_work, &e->pile_work, &e->slip, &e->plastic,
-                           &e->breakage_release, &e->rotation_constraint, &e->damping});
+    all.insert(all.end(),
+               {&e->kinetic, &e->bonds, &e->contacts, &e->walls, &e->mirror, &e->gravity,
+                &e->wall_work, &e->rigid_wall_work, &e->slip, &e->plastic,
+                &e->breakage_release, &e->rotation_constraint, &e->damping});
   auto& f = self.start_.far_field;
   all.insert(all.end(), {&f.kinetic, &f.strain, &f.interface_work, &f.gravity_work,
                          &f.initial_stress_work, &f.damping});

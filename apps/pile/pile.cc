@@ -1,4 +1,4 @@
-/// mergel pile: installs a cone-ended pile in bonded rock at a penetration rate.
+/// mergel pile: installs a pile in bonded rock at a penetration rate.
 #include "apps/case/words.h"
 #include "apps/pile/installation.h"
 #include "apps/pile/pile_summary.h"
@@ -101,7 +101,7 @@ int run_pile(const JobOptions& options)
   if (restart) {
     std::cout << far_field.summary() << '\n';
     dem::State& state = restart->checkpoint.state;
-    std::vector<dem::PileWall> piles;
+    std::vector<dem::RigidWall> piles;
     if (Installation::is_in(state)) piles.push_back(make_pile(c));
     coupled.emplace(c.assembly, state, std::move(piles), std::move(far_field),
                     std::move(interface));

@@ -6,9 +6,9 @@
 
 namespace mergel::apps {
 
-double PileCase::cone_height() const
+double PileCase::tip_height() const
 {
-  return 0.5 * diameter / std::tan(0.5 * cone_angle);
+  return tip == Tip::flat ? 0.0 : 0.5 * diameter / std::tan(0.5 * cone_angle);
 }
 
 void declare(CaseFile& file, PileCase& c)
@@ -17,8 +17,15 @@ void declare(CaseFile& file, PileCase& c)
   {
     const auto section = file.section("Pile");
     file.quantity("diameter", c.diameter, "m", positive, "Diameter of the shaft.", "mm");
-    file.quantity("cone angle", c.cone_angle, "rad", inside(0.0, dem::pi),
-                  "Full angle at the tip.", "degree");
+    file.choice("tip", c.tip,
+                std::vector<std::pair<std::string, PileCase::Tip>>{
+                    {"cone", PileCase::Tip::cone}, {"flat", PileCase::Tip::flat}},
+                "Shape of the lower end.");
+    {
+      const auto only = file.only_if("tip", {"cone"});
+      file.quantity("cone angle", c.cone_angle, "rad", inside(0.0, dem::pi),
+                    "Full angle at the tip.", "degree");
+    }
     file.former_name("velocity", "penetration rate");
     file.quantity("penetration rate", c.velocity, "m/s", positive,
                   "Downwards, after a ramp of 0.05 diameters.");

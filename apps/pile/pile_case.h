@@ -10,8 +10,9 @@ struct PileCase {
   CoupledCase assembly;
 
   // Pile
+  enum class Tip { cone, flat } tip = Tip::cone;
   double diameter = unset;     ///< [m]
-  double cone_angle = unset;   ///< full angle at the tip [rad]
+  double cone_angle = unset;   ///< full angle at the tip [rad]; unset for a flat tip
   double velocity = unset;     ///< downwards [m/s]
   double final_depth = unset;  ///< of the shoulder below the surface [m]
   dem::LinearMaterial contact; ///< with the particles; kappa is that of the particles
@@ -21,9 +22,9 @@ struct PileCase {
   int frames = 20;             ///< frames of the fields after the first
   CheckpointKey checkpoints;
 
-  double cone_height() const;
+  double tip_height() const; ///< from the lowest point to the shaft [m]; 0 for a flat tip
   /// From the tip at the surface to the shoulder at the final depth [m].
-  double travel() const { return final_depth + cone_height(); }
+  double travel() const { return final_depth + tip_height(); }
 };
 
 void declare(CaseFile& file, PileCase& c);

@@ -79,7 +79,7 @@ void PileOutput::record(const PileRecord& r)
   history_.add({r.time, r.depth, r.depth / diameter_, r.tip_depth, r.F_tip, r.F_shaft,
                 r.q_c, static_cast<double>(r.broken), r.unbalanced, r.kinetic,
                 r.interface.force, r.interface.moment, r.interface.power, r.energy_error,
-                e.pile_work, e.bonds + e.contacts + e.walls + e.mirror,
+                e.rigid_wall_work, e.bonds + e.contacts + e.walls + e.mirror,
                 e.plastic + e.breakage_release, e.slip, e.damping});
 }
 
@@ -88,7 +88,9 @@ void PileOutput::frame(double time, const dem::Assembly& assembly,
 {
   dem::write_particles(frames_.file(0), assembly, coupled.x_0);
   dem::write_bonds(frames_.file(1), assembly);
-  dem::write_pile(frames_.file(2), assembly.piles.front().pile, 2.0 * diameter_);
+  const dem::RigidWall& pile = assembly.rigid_walls.front();
+  dem::write_revolution(frames_.file(2), std::get<dem::Revolution>(pile.shape), pile.x,
+                        2.0 * diameter_);
   dem::replace_file(frames_.file(3), [&](const std::filesystem::path& path) {
     coupled.far_field.write_vtu(path);
   });

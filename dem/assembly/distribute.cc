@@ -88,9 +88,15 @@ std::vector<Record> gathered_by(const Communicator& comm, const std::vector<Reco
   return all;
 }
 
+/// Order of the records of a wall. A particle in a corner has several, in a fixed order.
 std::pair<Index, int> key_of(const WallContact& c)
 {
   return {c.particle, c.wall};
+}
+template <class Record>
+Index key_of(const Record& r)
+{
+  return r.particle;
 }
 
 /// What only the owner of a particle holds, apart from its motion.
@@ -119,14 +125,10 @@ void keep_own(Assembly& assembly)
   assembly.contacts = std::move(contacts);
 
   const auto is_remote = [&p](const auto& r) { return !p.owns(r.particle); };
-  for (Mirror& m : assembly.mirrors) std::erase_if(m.pairs, is_remote);
-  for (PlaneWall& w : assembly.planes) std::erase_if(w.contacts.contacts(), is_remote);
-  for (PileWall& w : assembly.piles) std::erase_if(w.contacts.contacts(), is_remote);
-  for (Wall& w : assembly.walls) {
-    std::erase_if(w.contacts, is_remote);
-    w.listed.resize(w.contacts.size()); // rebuilt with the list
-    std::erase_if(w.bonds, is_remote);
-  }
+  for_each_wall(assembly, [&](auto& wall) {
+    std::apply([&](auto&... lists) { (std::erase_if(lists, is_remote), ...); },
+               histories(wall));
+  });
   assembly.list.invalidate();
 }
 
@@ -136,10 +138,9 @@ void keep_sums_once(Assembly& assembly)
   if (assembly.comm.rank() == 0) return;
   assembly.losses = {};
   assembly.work = {};
-  for (Mirror& m : assembly.mirrors) {
-    m.energy.clear();
-    m.force.clear();
-  }
+  visit_sums(assembly, [](const char*, SumKind kind, auto& sum) {
+    if (kind == SumKind::by_rank) visit_raw(sum, [](ExactWide& raw) { raw = 0; });
+  });
 }
 
 } // namespace
@@ -191,29 +192,22 @@ Assembly gather(Assembly& assembly, bool compare)
     all.contacts.shear.emplace_back().f_s = Vec3(r.history[0], r.history[1], r.history[2]);
   }
 
+  for_each_wall(assembly, all, [&](auto& mine, auto& wall) {
+    const auto gather_one = [&](const auto& records, auto& to) {
+      to = gathered_by(assembly.comm, records, [](const auto& r) { return key_of(r); });
+    };
+    auto from = histories(mine);
+    auto to = histories(wall);
+    [&]<std::size_t... k>(std::index_sequence<k...>)
+    {
+      (gather_one(std::get<k>(from), std::get<k>(to)), ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<decltype(from)>>{});
+  });
   ExactReduction sums;
-  const auto by_particle = [](const auto& r) { return r.particle; };
-  for (std::size_t k = 0; k < assembly.mirrors.size(); ++k) {
-    all.mirrors[k].pairs =
-        gathered_by(assembly.comm, assembly.mirrors[k].pairs, by_particle);
-    sums.add(all.mirrors[k].energy);
-    sums.add(all.mirrors[k].force);
-  }
-  for (std::size_t k = 0; k < assembly.planes.size(); ++k)
-    all.planes[k].contacts.contacts() =
-        gathered_by(assembly.comm, assembly.planes[k].contacts.contacts(), key_of);
-  for (std::size_t k = 0; k < assembly.piles.size(); ++k)
-    all.piles[k].contacts.contacts() =
-        gathered_by(assembly.comm, assembly.piles[k].contacts.contacts(), key_of);
-  for (std::size_t k = 0; k < assembly.walls.size(); ++k) {
-    Wall& w = all.walls[k];
-    w.contacts = gathered_by(assembly.comm, assembly.walls[k].contacts, key_of);
-    w.listed.assign(w.contacts.size(), {});
-    w.bonds = gathered_by(assembly.comm, assembly.walls[k].bonds, by_particle);
-  }
-  for (EnergySum* s : {&all.losses.slip, &all.losses.plastic, &all.losses.breakage_release,
-                       &all.work.gravity, &all.work.damping, &all.work.rotation_constraint})
-    sums.add(*s);
+  visit_sums(all, [&](const char*, SumKind kind, auto& sum) {
+    if (kind == SumKind::by_rank) sums.add(sum);
+  });
   sums.run(assembly.comm);
   all.losses.broken = assembly.comm.global_sum(assembly.losses.broken);
   all.losses.yielded = assembly.comm.global_sum(assembly.losses.yielded);
@@ -248,23 +242,16 @@ void rebalance(Assembly& assembly, double seconds, bool compare)
   Assembly all = gather(assembly, compare);
   assembly.partition.assign(p, weight, assembly.comm);
   assembly.ghosts.clear();
-  // Replace only what migrates: callers hold references to walls and piles.
+  // Replace only what migrates: callers hold references to walls.
   std::vector<char> is_owned(p.size(), 0);
   p.for_owned([&](Index i) { is_owned[i] = 1; });
   all.particles.set_ownership(std::move(is_owned), std::vector<char>(p.size(), 0));
   p = std::move(all.particles);
   assembly.bonds = std::move(all.bonds);
   assembly.contacts = std::move(all.contacts);
-  for (std::size_t k = 0; k < assembly.mirrors.size(); ++k)
-    assembly.mirrors[k].pairs = std::move(all.mirrors[k].pairs);
-  for (std::size_t k = 0; k < assembly.planes.size(); ++k)
-    assembly.planes[k].contacts = std::move(all.planes[k].contacts);
-  for (std::size_t k = 0; k < assembly.piles.size(); ++k)
-    assembly.piles[k].contacts = std::move(all.piles[k].contacts);
-  for (std::size_t k = 0; k < assembly.walls.size(); ++k) {
-    assembly.walls[k].contacts = std::move(all.walls[k].contacts);
-    assembly.walls[k].bonds = std::move(all.walls[k].bonds);
-  }
+  for_each_wall(assembly, all, [](auto& wall, auto& gathered_wall) {
+    histories(wall) = histories(gathered_wall);
+  });
   keep_own(assembly);
 }
 

@@ -12,15 +12,15 @@ EnergyBalance energy_balance(const Assembly& assembly, double dt)
   PairEnergy pairs = pair_energy(assembly.material, assembly.cell, assembly.particles,
                                  assembly.bonds, assembly.contacts);
   for (const Mirror& m : assembly.mirrors) mirror += m.energy;
-  for (const PlaneWall& w : assembly.planes) walls += w.contacts.energy();
-  for (const Wall& w : assembly.walls) walls += w.energy();
-  for (const PileWall& w : assembly.piles) walls += w.contacts.energy();
+  for (const Wall& w : assembly.walls) walls += stored_energy(w);
+  for (const RigidWall& w : assembly.rigid_walls) walls += stored_energy(w);
   PairLosses losses = assembly.losses;
   ExactReduction sums;
-  for (EnergySum* s : {&kinetic, &pairs.bonds, &pairs.contacts, &walls, &mirror,
-                       &work.gravity, &work.damping, &work.rotation_constraint,
-                       &losses.slip, &losses.plastic, &losses.breakage_release})
+  for (EnergySum* s : {&kinetic, &pairs.bonds, &pairs.contacts, &walls, &mirror})
     sums.add(*s);
+  const auto add = [&](const char*, SumKind, EnergySum& s) { sums.add(s); };
+  visit_sums(losses, add);
+  visit_sums(work, add);
   sums.run(assembly.comm);
   e.kinetic = kinetic.value();
   e.bonds = pairs.bonds.value();
@@ -28,10 +28,10 @@ EnergyBalance energy_balance(const Assembly& assembly, double dt)
   e.mirror = mirror.value();
   e.walls = walls.value();
 
-  const WallPower power = wall_power(assembly);
   e.gravity = work.gravity.value();
-  e.wall_work = assembly.wall_work.value() + 0.5 * dt * power.walls;
-  e.pile_work = assembly.pile_work.value() + 0.5 * dt * power.pile;
+  for (const Wall& w : assembly.walls) e.wall_work += w.work.value() + 0.5 * dt * power(w);
+  for (const RigidWall& w : assembly.rigid_walls)
+    e.rigid_wall_work += w.work.value() + 0.5 * dt * power(w);
   e.cell_work = assembly.cell_work.value() + 0.5 * dt * cell_power(assembly);
 
   e.slip = losses.slip.value();

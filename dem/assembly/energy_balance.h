@@ -8,13 +8,13 @@ namespace mergel::dem {
 
 /// All terms [J], at the whole step of the positions.
 struct EnergyBalance {
-  double kinetic = 0.0, bonds = 0.0, contacts = 0.0, walls = 0.0, mirror = 0.0; ///< stored
-  double gravity = 0.0, wall_work = 0.0, pile_work = 0.0, cell_work = 0.0;      ///< input
+  double kinetic = 0.0, bonds = 0.0, contacts = 0.0, walls = 0.0, mirror = 0.0;  ///< stored
+  double gravity = 0.0, wall_work = 0.0, rigid_wall_work = 0.0, cell_work = 0.0; ///< input
   double slip = 0.0, plastic = 0.0, breakage_release = 0.0, rotation_constraint = 0.0,
          damping = 0.0; ///< lost
 
   double stored() const { return kinetic + bonds + contacts + walls + mirror; }
-  double input() const { return gravity + wall_work + pile_work + cell_work; }
+  double input() const { return gravity + wall_work + rigid_wall_work + cell_work; }
   double lost() const
   {
     return slip + plastic + breakage_release + rotation_constraint + damping;

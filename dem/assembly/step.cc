@@ -24,13 +24,11 @@ void sum_over_ranks(Assembly& assembly)
   if (assembly.cell.is_strain_controlled) assembly.virial = assembly.losses.virial;
   if (assembly.comm.is_alone()) return assembly.comm.agree_on(assembly.fault);
   ExactReduction sums;
-  for (PlaneWall& w : assembly.planes) sums.add(w.force);
-  for (Wall& w : assembly.walls)
-    for (VectorSum& f : w.f) sums.add(f);
-  for (PileWall& w : assembly.piles) {
-    sums.add(w.load.cone);
-    sums.add(w.load.shaft);
-  }
+  for_each_wall(assembly, [&](auto& wall) {
+    visit_sums(wall, [&](const char*, SumKind kind, auto& sum) {
+      if (kind == SumKind::forces) sums.add(sum);
+    });
+  });
   if (assembly.cell.is_strain_controlled) sums.add(assembly.virial);
   if (sums.is_empty()) return; // a fault is then reported in the next step
   ForceSum n_faults;
@@ -48,13 +46,9 @@ bool lists_are_stale(Assembly& assembly)
           assembly.comm.global_max(assembly.list.travel(assembly.particles))))
     return true;
   const double allowed = assembly.list.wall_allowance();
-  for (const PlaneWall& w : assembly.planes)
-    if (w.contacts.has_moved(w.plane.point, allowed)) return true;
-  for (const Wall& w : assembly.walls)
-    if (travel(w) > allowed) return true;
-  for (const PileWall& w : assembly.piles)
-    if (w.contacts.has_moved(w.pile.tip(), allowed)) return true;
-  return false;
+  bool is_stale = false;
+  for_each_wall(assembly, [&](const auto& w) { is_stale |= travel(w) > allowed; });
+  return is_stale;
 }
 
 } // namespace
@@ -66,17 +60,7 @@ void rebuild_lists(Assembly& assembly)
   const double skin = assembly.list.skin();
   assembly.list.rebuild(p, assembly.cell, assembly.bonds, assembly.contacts);
   assembly.fault.run([&] {
-    for (Mirror& m : assembly.mirrors)
-      rebuild_mirror(m, p, assembly.material.contact.g_a, skin);
-    for (PlaneWall& w : assembly.planes)
-      w.contacts.rebuild(
-          p, w.material.g_a, skin, w.plane.point,
-          [&](const ParticleState& b) { return w.plane.contact_geometry(b).gap; });
-    for (Wall& w : assembly.walls) rebuild_wall(w, p, skin);
-    for (PileWall& w : assembly.piles)
-      w.contacts.rebuild(
-          p, w.material.g_a, skin, w.pile.tip(),
-          [&](const ParticleState& b) { return w.pile.closest_point(b).geometry.gap; });
+    for_each_wall(assembly, [&](auto& w) { rebuild_wall(w, assembly.material, p, skin); });
   });
   choose_ghosts(assembly);
 }
@@ -94,15 +78,9 @@ void add_own_forces(Assembly& assembly, double dt, Lap&& lap)
                      assembly.losses);
   lap(assembly.times.contacts);
 
-  for (Mirror& m : assembly.mirrors)
-    add_mirror_forces(assembly.material, dt, p, m, assembly.losses);
-  for (PlaneWall& w : assembly.planes)
-    w.force = add_plane_forces(w.material, w.plane, dt, p, w.contacts, assembly.losses);
-  for (Wall& w : assembly.walls)
-    add_wall_forces(assembly.material.bond, assembly.wall_bonds_yield, dt, p, w,
-                    assembly.losses);
-  for (PileWall& w : assembly.piles)
-    w.load = add_pile_forces(w.material, w.pile, dt, p, w.contacts, assembly.losses);
+  for_each_wall(assembly, [&](auto& w) {
+    add_wall_forces(w, assembly.material, dt, p, assembly.losses);
+  });
   for (const Mirror& m : assembly.mirrors) constrain_mirror_spin(m, p);
   lap(assembly.times.walls);
 }
@@ -136,12 +114,8 @@ double stable_time_step(const Assembly& assembly, double safety)
   const Particles& p = assembly.particles;
   StiffnessSums s = stiffness_sums(assembly.material, assembly.cell, p, assembly.bonds,
                                    assembly.contacts);
-  for (const Mirror& m : assembly.mirrors) add_mirror_stiffness(s, assembly.material, p, m);
-  for (const PlaneWall& w : assembly.planes)
-    add_surface_stiffness(s, w.material, p, w.contacts);
-  for (const Wall& w : assembly.walls) add_wall_stiffness(s, assembly.material.bond, p, w);
-  for (const PileWall& w : assembly.piles)
-    add_surface_stiffness(s, w.material, p, w.contacts);
+  for_each_wall(assembly,
+                [&](const auto& w) { add_wall_stiffness(s, w, assembly.material, p); });
   return assembly.comm.global_min(time_step(s, p, safety, assembly.motion));
 }
 
@@ -180,15 +154,30 @@ void check_overlaps(const Assembly& assembly)
   assembly.comm.agree_on(fault);
 }
 
-WallPower wall_power(const Assembly& assembly)
+std::vector<double> wall_powers(const Assembly& assembly)
 {
-  WallPower power;
-  for (const PlaneWall& w : assembly.planes) power.walls -= w.force.value().dot(w.plane.v);
-  for (const Wall& w : assembly.walls)
-    for (std::size_t k = 0; k < w.f.size(); ++k) power.walls -= w.f[k].value().dot(w.v[k]);
-  for (const PileWall& w : assembly.piles)
-    power.pile -= (w.load.cone.z.value() + w.load.shaft.z.value()) * w.pile.v_z;
-  return power;
+  std::vector<double> powers;
+  for_each_wall(assembly, [&](const auto& w) { powers.push_back(power(w)); });
+  return powers;
+}
+
+namespace {
+
+void add_work(Mirror&, double) {} // a plane at rest does none
+
+template <class MovingWall>
+void add_work(MovingWall& wall, double work)
+{
+  wall.work.add(work);
+}
+
+} // namespace
+
+void add_wall_work(Assembly& assembly, const std::vector<double>& before, double dt)
+{
+  std::size_t k = 0;
+  for_each_wall(assembly,
+                [&](auto& w) { add_work(w, 0.5 * dt * (before[k++] + power(w))); });
 }
 
 double cell_power(const Assembly& assembly)

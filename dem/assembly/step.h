@@ -1,73 +1,13 @@
-/// One DEM step, and the assembly that it advances.
+/// One DEM step.
 #pragma once
 
+#include "dem/assembly/assembly.h"
 #include "dem/assembly/timestep.h"
-#include "dem/pairs/neighbours.h"
-#include "dem/parallel/ghosts.h"
-#include "dem/parallel/reduction.h"
-#include "dem/particles/integrate.h"
-#include "dem/timer.h"
-#include "dem/walls/mirror.h"
-#include "dem/walls/surfaces.h"
-#include "dem/walls/triangulated.h"
 
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace mergel::dem {
-
-/// A rigid plane and its contacts.
-struct PlaneWall {
-  Plane plane;
-  LinearMaterial material;
-  SurfaceContacts contacts;
-  VectorSum force; ///< on the plane in the last step, of all ranks [N]
-};
-
-/// The pile and its contacts.
-struct PileWall {
-  Pile pile;
-  LinearMaterial material;
-  SurfaceContacts contacts;
-  PileLoad load; ///< in the last step, of all ranks
-};
-
-/// The bonded particles of a run and everything that acts on them. What a run does not have
-/// is an empty list.
-///
-/// On several ranks each holds an entry for all particles, but only those bonds, contacts
-/// and wall contacts that have an owned particle (distribute.h). Losses and works are those
-/// of the owned particles, except wall_work, pile_work and cell_work: these are totals on
-/// every rank.
-struct Assembly {
-  Communicator comm;
-  Partition partition;
-  Ghosts ghosts;
-  Particles particles;
-  PeriodicCell cell;
-  Bonds bonds;
-  Contacts contacts;
-  PairMaterials material;
-  Motion motion;
-  VerletList list{0.0, 0.0};
-
-  std::vector<Mirror> mirrors; ///< none or one, the cut y = 0
-  std::vector<PlaneWall> planes;
-  std::vector<Wall> walls; ///< triangulated
-  std::vector<PileWall> piles;
-  bool wall_bonds_yield = false;
-
-  PairLosses losses;
-  KickWork work;
-  EnergySum wall_work; ///< on the particles by moving planes and triangulated walls [J]
-  EnergySum pile_work; ///< on the particles by the pile [J]
-  EnergySum cell_work; ///< on the particles by a strain-controlled cell [J]
-  /// Of a strain-controlled cell in the last step, of all ranks [J].
-  ExactVector<EnergySum> virial;
-  Fault fault; ///< of this rank, not yet reported to the others
-  StepTimes times;
-};
 
 /// Forces at the present positions; histories are updated over the step dt [s] that ends
 /// now. Ghosts are updated first, and stale lists are rebuilt. Collective, as is all below.
@@ -100,12 +40,13 @@ double unbalanced_ratio(const Assembly& assembly);
 ///   radius
 void check_overlaps(const Assembly& assembly);
 
-/// Power of the wall forces of the last step on the particles, at the present wall
-/// velocities [W].
-struct WallPower {
-  double walls = 0.0, pile = 0.0;
-};
-WallPower wall_power(const Assembly& assembly);
+/// Power of each wall on the particles, from the forces of the last step, at the present
+/// wall velocities [W].
+std::vector<double> wall_powers(const Assembly& assembly);
+
+/// Add the mean of these powers before and after the motion of the walls, over dt [s], to
+/// the works of the walls.
+void add_wall_work(Assembly& assembly, const std::vector<double>& before, double dt);
 
 /// Power of a strain-controlled cell on the particles, from the virial of the last step at
 /// the present strain rate [W]; 0 for any other cell.
@@ -129,12 +70,10 @@ void advance(Assembly& assembly, double dt_before, double dt, MoveWalls&& move_w
   assembly.list.add_motion(global_largest);
   assembly.times.exchange += wall_clock() - moved;
   // Work of the forces at t^n on the mean motion of the walls around t^n.
-  const WallPower before = wall_power(assembly);
+  const std::vector<double> before = wall_powers(assembly);
   const double cell_before = cell_power(assembly);
   move_walls(dt);
-  const WallPower after = wall_power(assembly);
-  assembly.wall_work.add(0.5 * dt_kick * (before.walls + after.walls));
-  assembly.pile_work.add(0.5 * dt_kick * (before.pile + after.pile));
+  add_wall_work(assembly, before, dt_kick);
   if (assembly.cell.is_strain_controlled) {
     assembly.cell_work.add(0.5 * dt_kick * (cell_before + cell_power(assembly)));
     assembly.list.add_strain(strain(assembly.cell, dt, assembly.particles));

@@ -52,27 +52,12 @@ StiffnessSums stiffness_sums(const PairMaterials& material, const PeriodicCell& 
   return s;
 }
 
-void add_wall_stiffness(StiffnessSums& s, const BondLaw& bond, const Particles& p,
-                        const Wall& wall)
-{
-  for (const WallContact& c : wall.contacts) {
-    if (c.energy == 0.0) continue;
-    const double R = p.state[c.particle].R;
-    const auto k = linear_stiffness(wall.material, R, 1.0 / R);
-    add_spring(s, c.particle, k.k_n, k.k_s, R, 0.0);
-  }
-  for (const WallBond& b : wall.bonds) {
-    if (b.state.intact == 0.0) continue;
-    const double R = p.state[b.particle].R;
-    const auto k = bond_shape(section(bond), R, 1.0 / R);
-    add_spring(s, b.particle, k.k_n, k.k_s, R + std::max(0.0, b.gap_0), 0.0);
-  }
-}
+namespace {
 
-void add_surface_stiffness(StiffnessSums& s, const LinearMaterial& material,
-                           const Particles& p, const SurfaceContacts& contacts)
+void add_contacts(StiffnessSums& s, const LinearMaterial& material,
+                  const std::vector<WallContact>& contacts, const Particles& p)
 {
-  for (const WallContact& c : contacts.contacts()) {
+  for (const WallContact& c : contacts) {
     if (c.energy == 0.0) continue;
     const double R = p.state[c.particle].R;
     const auto k = linear_stiffness(material, R, 1.0 / R);
@@ -80,8 +65,28 @@ void add_surface_stiffness(StiffnessSums& s, const LinearMaterial& material,
   }
 }
 
-void add_mirror_stiffness(StiffnessSums& s, const PairMaterials& material,
-                          const Particles& p, const Mirror& mirror)
+} // namespace
+
+void add_wall_stiffness(StiffnessSums& s, const Wall& wall, const PairMaterials& material,
+                        const Particles& p)
+{
+  add_contacts(s, wall.material, wall.contacts, p);
+  for (const WallBond& b : wall.bonds) {
+    if (b.state.intact == 0.0) continue;
+    const double R = p.state[b.particle].R;
+    const auto k = bond_shape(section(material.bond), R, 1.0 / R);
+    add_spring(s, b.particle, k.k_n, k.k_s, R + std::max(0.0, b.gap_0), 0.0);
+  }
+}
+
+void add_wall_stiffness(StiffnessSums& s, const RigidWall& wall, const PairMaterials&,
+                        const Particles& p)
+{
+  add_contacts(s, wall.material, wall.contacts, p);
+}
+
+void add_wall_stiffness(StiffnessSums& s, const Mirror& mirror,
+                        const PairMaterials& material, const Particles& p)
 {
   for (const MirrorPair& m : mirror.pairs) {
     const ParticleState& b = p.state[m.particle];

@@ -5,7 +5,7 @@
 #include "dem/pairs/forces.h"
 #include "dem/particles/integrate.h"
 #include "dem/walls/mirror.h"
-#include "dem/walls/surfaces.h"
+#include "dem/walls/rigid_wall.h"
 #include "dem/walls/triangulated.h"
 
 namespace mergel::dem {
@@ -27,13 +27,13 @@ StiffnessSums stiffness_sums(const PairMaterials& material, const PeriodicCell& 
                              const Particles& p, const Bonds& bonds,
                              const Contacts& contacts);
 
-/// Add the stiffness of a triangulated wall, of a plane or pile, and of the mirror image.
-void add_wall_stiffness(StiffnessSums& s, const BondLaw& bond, const Particles& p,
-                        const Wall& wall);
-void add_surface_stiffness(StiffnessSums& s, const LinearMaterial& material,
-                           const Particles& p, const SurfaceContacts& contacts);
-void add_mirror_stiffness(StiffnessSums& s, const PairMaterials& material,
-                          const Particles& p, const Mirror& mirror);
+/// Add the stiffness of a wall: of its contacts that press, and of its bonds.
+void add_wall_stiffness(StiffnessSums& s, const Mirror& mirror,
+                        const PairMaterials& material, const Particles& p);
+void add_wall_stiffness(StiffnessSums& s, const Wall& wall, const PairMaterials& material,
+                        const Particles& p);
+void add_wall_stiffness(StiffnessSums& s, const RigidWall& wall,
+                        const PairMaterials& material, const Particles& p);
 
 /// s min[ sqrt(2 m/sum k), sqrt(2 I_p/sum(2 k_s a^2 + 2 k_b)) ] / sqrt(1 + alpha) [s].
 ///

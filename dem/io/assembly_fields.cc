@@ -92,34 +92,39 @@ void write_bonds(const std::filesystem::path& file, const Assembly& assembly)
   write_lines(file, x, lines, {N, V, M, T, D});
 }
 
-void write_pile(const std::filesystem::path& file, const Pile& pile, double z_top)
+void write_revolution(const std::filesystem::path& file, const Revolution& body,
+                      const Vec3& x, double z_top)
 {
-  constexpr int n_around = 48; // facets of 3.75 degrees over the half circle
-  std::vector<Vec3> x{{pile.x_axis, pile.y_axis, pile.z_tip}};
-  std::vector<std::array<Index, 3>> triangles;
-  const double top = std::max(z_top, pile.z_shoulder());
-  for (int k = 0; k <= n_around; ++k) {
+  constexpr Index n_around = 48; // facets of 3.75 degrees over the half circle
+  std::vector<Revolution::Corner> rings(body.profile.begin() + 1, body.profile.end());
+  rings.push_back({body.R(), std::max(z_top - x.z(), body.tip_height())});
+  const auto n = static_cast<Index>(rings.size());
+  std::vector<Vec3> points{x};
+  for (Index k = 0; k <= n_around; ++k) {
     const double phi = pi * k / n_around;
-    const Vec3 rim(pile.x_axis + pile.R * std::cos(phi),
-                   pile.y_axis + pile.R * std::sin(phi), 0.0);
-    x.push_back(rim + Vec3(0.0, 0.0, pile.z_shoulder()));
-    x.push_back(rim + Vec3(0.0, 0.0, top));
+    for (const auto& ring : rings)
+      points.push_back(x + Vec3(ring.r * std::cos(phi), ring.r * std::sin(phi), ring.z));
   }
-  const auto last = static_cast<Index>(x.size());
-  x.push_back({pile.x_axis, pile.y_axis, top});
+  const auto top = static_cast<Index>(points.size());
+  points.push_back(x + Vec3(0.0, 0.0, rings.back().z));
+
+  std::vector<std::array<Index, 3>> triangles;
+  const auto at = [n](Index k, Index ring) { return 1 + n * k + ring; };
   for (Index k = 0; k < n_around; ++k) {
-    const Index a = 1 + 2 * k, b = a + 2; // shoulder points; a + 1 and b + 1 are the tops
-    triangles.push_back({0, a, b});
-    triangles.push_back({a, b + 1, b});
-    triangles.push_back({a, a + 1, b + 1});
-    triangles.push_back({a + 1, last, b + 1});
+    triangles.push_back({0, at(k, 0), at(k + 1, 0)});
+    for (Index j = 0; j + 1 < n; ++j) {
+      triangles.push_back({at(k, j), at(k + 1, j + 1), at(k + 1, j)});
+      triangles.push_back({at(k, j), at(k, j + 1), at(k + 1, j + 1)});
+    }
+    triangles.push_back({at(k, n - 1), top, at(k + 1, n - 1)});
   }
-  // The cut face of the half pile.
-  const Index right = 1, left = 1 + 2 * n_around;
-  triangles.push_back({0, left, right});
-  triangles.push_back({right, left, left + 1});
-  triangles.push_back({right, left + 1, right + 1});
-  write_surface(file, x, triangles, {});
+  // The cut face.
+  triangles.push_back({0, at(n_around, 0), at(0, 0)});
+  for (Index j = 0; j + 1 < n; ++j) {
+    triangles.push_back({at(0, j), at(n_around, j), at(n_around, j + 1)});
+    triangles.push_back({at(0, j), at(n_around, j + 1), at(0, j + 1)});
+  }
+  write_surface(file, points, triangles, {});
 }
 
 } // namespace mergel::dem

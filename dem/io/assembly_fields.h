@@ -17,8 +17,9 @@ void write_particles(const std::filesystem::path& file, const Assembly& assembly
 /// [N m] and D. A bond through a periodic face ends at the image of its second particle.
 void write_bonds(const std::filesystem::path& file, const Assembly& assembly);
 
-/// The half of the pile at y >= 0, up to z_top [m].
-void write_pile(const std::filesystem::path& file, const Pile& pile, double z_top);
+/// The half at y >= 0 of a body of revolution at x, up to z_top [m].
+void write_revolution(const std::filesystem::path& file, const Revolution& body,
+                      const Vec3& x, double z_top);
 
 /// Mean damage of the bonds of each particle, broken ones included [-].
 std::vector<double> particle_damage(const Assembly& assembly);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace mergel::dem {
 
@@ -42,6 +43,7 @@ public:
   double value() const { return static_cast<double>(sum_) / scale; }
   void clear() { sum_ = 0; }
   ExactWide& raw() { return sum_; } ///< in quanta; for the sums over ranks
+  const ExactWide& raw() const { return sum_; }
 
 private:
   static constexpr double scale =
@@ -69,5 +71,44 @@ struct ExactVector {
   void clear() { *this = {}; }
 };
 using VectorSum = ExactVector<ForceSum>;
+
+/// How the ranks hold a sum.
+enum class SumKind {
+  by_rank, ///< each rank its part
+  forces,  ///< each rank its part until the end of the step, then every rank the total
+  total    ///< every rank the total
+};
+
+/// Call visit(ExactWide&) for each component of a sum, of a vector of sums, of a list.
+template <int exponent, class Visit>
+void visit_raw(ExactSum<exponent>& s, Visit&& visit)
+{
+  visit(s.raw());
+}
+template <int exponent, class Visit>
+void visit_raw(const ExactSum<exponent>& s, Visit&& visit)
+{
+  visit(s.raw());
+}
+template <class Sum, class Visit>
+void visit_raw(ExactVector<Sum>& v, Visit&& visit)
+{
+  for (Sum* s : {&v.x, &v.y, &v.z}) visit(s->raw());
+}
+template <class Sum, class Visit>
+void visit_raw(const ExactVector<Sum>& v, Visit&& visit)
+{
+  for (const Sum* s : {&v.x, &v.y, &v.z}) visit(s->raw());
+}
+template <class Sum, class Visit>
+void visit_raw(std::vector<Sum>& list, Visit&& visit)
+{
+  for (Sum& s : list) visit_raw(s, visit);
+}
+template <class Sum, class Visit>
+void visit_raw(const std::vector<Sum>& list, Visit&& visit)
+{
+  for (const Sum& s : list) visit_raw(s, visit);
+}
 
 } // namespace mergel::dem

@@ -6,6 +6,7 @@
 #include "dem/pairs/contacts.h"
 
 #include <array>
+#include <concepts>
 
 namespace mergel::dem {
 
@@ -30,6 +31,16 @@ struct PairLosses {
   /// times stress, tension positive.
   ExactVector<EnergySum> virial;
 };
+
+/// Show each exact sum that counts from the start of the run to `visit(name, kind, sum)`.
+template <class Losses, class Visit>
+requires std::same_as<std::remove_const_t<Losses>, PairLosses>
+void visit_sums(Losses& losses, Visit&& visit)
+{
+  visit("slip", SumKind::by_rank, losses.slip);
+  visit("plastic", SumKind::by_rank, losses.plastic);
+  visit("breakage_release", SumKind::by_rank, losses.breakage_release);
+}
 
 /// The materials of a pair: of its bond and of its far-field contact.
 struct PairMaterials {

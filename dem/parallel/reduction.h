@@ -12,18 +12,13 @@ namespace mergel::dem {
 class ExactReduction {
 public:
   bool is_empty() const { return terms_.empty(); }
-  template <int exponent>
-  void add(ExactSum<exponent>& s)
-  {
-    terms_.push_back(&s.raw());
-  }
+  /// @param sum an ExactSum, an ExactVector, or a list of these
   template <class Sum>
-  void add(ExactVector<Sum>& v)
+  void add(Sum& sum)
   {
-    add(v.x);
-    add(v.y);
-    add(v.z);
+    visit_raw(sum, [this](ExactWide& raw) { terms_.push_back(&raw); });
   }
+  void add(ExactWide& raw) { terms_.push_back(&raw); }
   /// Replace each sum by that over all ranks; collective, with the same list on all ranks.
   void run(const Communicator& comm);
 

@@ -5,6 +5,8 @@
 #include "dem/math/exact_sum.h"
 #include "dem/particles/particles.h"
 
+#include <concepts>
+
 namespace mergel::dem {
 
 /// Local damping alpha of quasi-static runs [-] (dem/README.md, Motion).
@@ -24,6 +26,16 @@ struct KickWork {
   EnergySum
       rotation_constraint; ///< spin energy of particles that lost their last bond [J], >= 0
 };
+
+/// Show each exact sum to `visit(name, kind, sum)`.
+template <class Work, class Visit>
+requires std::same_as<std::remove_const_t<Work>, KickWork>
+void visit_sums(Work& work, Visit&& visit)
+{
+  visit("gravity", SumKind::by_rank, work.gravity);
+  visit("damping", SumKind::by_rank, work.damping);
+  visit("rotation_constraint", SumKind::by_rank, work.rotation_constraint);
+}
 
 /// v^{n+1/2} = v^{n-1/2} + dt (f - alpha |f| sign v)/m with f = load + m g, component by
 /// component; the same for the spin. Rotation constraint (paper, section 2.1.2): a particle

@@ -34,13 +34,11 @@ Assembly make_assembly(const SpecimenSpec& s, const Packing& packing, double fri
   const double d00 = s.sizes.smallest();
   assembly.list = VerletList(s.contact.g_a + growth_reserve * d00, default_skin * d00);
   for (const Face& face : solid_faces(s.region)) {
-    PlaneWall wall;
-    wall.plane.point = face.point;
-    wall.plane.normal = face.inwards;
-    wall.material = s.contact;
-    wall.material.mu = 0.0;
-    wall.material.g_a = 0.0;
-    assembly.planes.push_back(wall);
+    LinearMaterial smooth = s.contact;
+    smooth.mu = 0.0;
+    smooth.g_a = 0.0;
+    assembly.rigid_walls.push_back(
+        make_rigid_wall(Plane{face.inwards}, face.point, smooth));
   }
   if (std::holds_alternative<HalfCylinder>(s.region)) assembly.mirrors.emplace_back();
   return assembly;
@@ -174,10 +172,10 @@ double mean_pressure(const Assembly& assembly, double volume)
   };
   for (const Pair& q : assembly.contacts.pairs) add(q);
   for (const Pair& q : assembly.bonds.pairs) add(q);
-  for (const PlaneWall& w : assembly.planes)
-    for (const WallContact& c : w.contacts.contacts()) {
+  for (const RigidWall& w : assembly.rigid_walls)
+    for (const WallContact& c : w.contacts) {
       const ParticleState& b = p.state[c.particle];
-      sum.add(wall_pressure_term(w.material, b, w.plane.contact_geometry(b).gap));
+      sum.add(wall_pressure_term(w.material, b, closest_point(w, b).gap));
     }
   for (const Mirror& m : assembly.mirrors)
     for (const MirrorPair& pair : m.pairs) {

@@ -201,7 +201,7 @@ std::optional<PatchContact> patch_contact(const Wall& wall,
   return p;
 }
 
-void rebuild_wall(Wall& wall, const Particles& p, double skin)
+void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double skin)
 {
   std::vector<WallContact> found;
   std::vector<ListedCandidate> listed;

@@ -15,14 +15,17 @@ double image_gap(const ParticleState& b)
 
 } // namespace
 
-void rebuild_mirror(Mirror& mirror, const Particles& p, double g_a, double skin)
+namespace {
+
+/// Candidates with a gap below `reach` S [m].
+void list_pairs(Mirror& mirror, const Particles& p, double reach)
 {
   std::vector<MirrorPair> pairs;
   auto old = mirror.pairs.begin();
   p.for_owned([&](Index i) {
     while (old != mirror.pairs.end() && old->particle < i) ++old;
     const bool known = old != mirror.pairs.end() && old->particle == i;
-    const bool near = image_gap(p.state[i]) < (g_a + 2.0 * skin) * p.state[i].S;
+    const bool near = image_gap(p.state[i]) < reach * p.state[i].S;
     if (known && (near || old->bond.intact > 0.0))
       pairs.push_back(*old);
     else if (near)
@@ -31,10 +34,18 @@ void rebuild_mirror(Mirror& mirror, const Particles& p, double g_a, double skin)
   mirror.pairs = std::move(pairs);
 }
 
+} // namespace
+
+void rebuild_wall(Mirror& mirror, const PairMaterials& material, const Particles& p,
+                  double skin)
+{
+  list_pairs(mirror, p, material.contact.g_a + 2.0 * skin);
+}
+
 void bond_to_mirror(Mirror& mirror, Particles& p, double limit)
 {
   if (!mirror.pairs.empty()) throw std::logic_error("this mirror is bonded already");
-  rebuild_mirror(mirror, p, limit, 0.0);
+  list_pairs(mirror, p, limit);
   for (MirrorPair& m : mirror.pairs) {
     ParticleState& b = p.state[m.particle];
     m.gap_0 = image_gap(b);
@@ -75,8 +86,8 @@ double image_bond_force(const Law& law, double dt, double gap, Particles& p, Mir
 
 } // namespace
 
-void add_mirror_forces(const PairMaterials& material, double dt, Particles& p,
-                       Mirror& mirror, PairLosses& losses)
+void add_wall_forces(Mirror& mirror, const PairMaterials& material, double dt, Particles& p,
+                     PairLosses& losses)
 {
   mirror.energy.clear();
   mirror.force.clear();

@@ -4,6 +4,8 @@
 
 #include "dem/pairs/forces.h"
 
+#include <concepts>
+#include <tuple>
 #include <vector>
 
 namespace mergel::dem {
@@ -29,7 +31,8 @@ struct Mirror {
 };
 
 /// Candidates: gap to the image below (g_a + skin) S; bonded pairs always stay.
-void rebuild_mirror(Mirror& mirror, const Particles& p, double g_a, double skin);
+void rebuild_wall(Mirror& mirror, const PairMaterials& material, const Particles& p,
+                  double skin);
 
 /// Bond each particle whose gap to its image is below limit S [m]; of its spin only the y
 /// component is kept. Once for a mirror, else std::logic_error.
@@ -37,12 +40,37 @@ void bond_to_mirror(Mirror& mirror, Particles& p, double limit);
 
 /// Add the forces of the images over the step dt [s].
 /// @throws NumericalError for a centre behind the plane
-void add_mirror_forces(const PairMaterials& material, double dt, Particles& p,
-                       Mirror& mirror, PairLosses& losses);
+void add_wall_forces(Mirror& mirror, const PairMaterials& material, double dt, Particles& p,
+                     PairLosses& losses);
 
 /// Set the x and z torques of bonded particles to zero, which symmetry excludes. To be
 /// called after all forces are added: a torque added later would spin a bonded particle and
 /// add energy.
 void constrain_mirror_spin(const Mirror& mirror, Particles& p);
+
+/// The plane does not move.
+inline double travel(const Mirror&)
+{
+  return 0.0;
+}
+inline double power(const Mirror&)
+{
+  return 0.0;
+}
+
+/// The records that belong to a particle and migrate with it.
+inline auto histories(Mirror& mirror)
+{
+  return std::tie(mirror.pairs);
+}
+
+/// Show each exact sum, with its name, to `visit(name, kind, sum)`.
+template <class Wall, class Visit>
+requires std::same_as<std::remove_const_t<Wall>, Mirror>
+void visit_sums(Wall& mirror, Visit&& visit)
+{
+  visit("energy", SumKind::by_rank, mirror.energy);
+  visit("force", SumKind::by_rank, mirror.force);
+}
 
 } // namespace mergel::dem

@@ -17,12 +17,19 @@ Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
   return wall;
 }
 
-EnergySum Wall::energy() const
+EnergySum stored_energy(const Wall& wall)
 {
   EnergySum e;
-  for (const WallContact& c : contacts) e.add(c.energy);
-  for (const WallBond& b : bonds) e.add(b.energy);
+  for (const WallContact& c : wall.contacts) e.add(c.energy);
+  for (const WallBond& b : wall.bonds) e.add(b.energy);
   return e;
+}
+
+double power(const Wall& wall)
+{
+  double sum = 0.0;
+  for (std::size_t k = 0; k < wall.f.size(); ++k) sum -= wall.f[k].value().dot(wall.v[k]);
+  return sum;
 }
 
 Vec3 at(const std::vector<Vec3>& nodal, const WallTopology& topo, const Anchor& a)
@@ -82,7 +89,7 @@ void add_to_nodes(Wall& wall, const Anchor& a, const Vec3& f)
 
 } // namespace
 
-void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p, Wall& wall,
+void add_wall_forces(Wall& wall, const PairMaterials& material, double dt, Particles& p,
                      PairLosses& losses)
 {
   for (VectorSum& f : wall.f) f.clear();
@@ -118,9 +125,9 @@ void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p, W
     const Vec3 f = std::visit(
         [&](const auto& bond) {
           return add_wall_bond(with_strengths_times(strength_of(p, b.particle), bond),
-                               yields, dt, x_a, v_a, p, b, losses);
+                               wall.bonds_yield, dt, x_a, v_a, p, b, losses);
         },
-        law);
+        material.bond);
     add_to_nodes(wall, b.anchor, -f);
     wall.contact_forces.push_back({f, x_a, v_a});
   }

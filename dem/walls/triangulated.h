@@ -6,7 +6,9 @@
 #include "dem/walls/wall_contact.h"
 
 #include <array>
+#include <concepts>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace mergel::dem {
@@ -24,8 +26,8 @@ inline std::size_t uz(int i)
 /// Normals follow the right-hand rule and point to the particles. A fold of more than 30
 /// degrees separates two patches: a particle in such a corner gets a force from each, a
 /// particle at a smaller fold gets one force. At a convex ridge of more than 30 degrees
-/// both patches act with their full force at the edge: use an exact surface there
-/// (surfaces.h).
+/// both patches act with their full force at the edge: use a rigid wall there
+/// (rigid_wall.h).
 struct WallTopology {
   std::vector<Triangle> triangles;
   std::vector<int> patch; ///< by triangle
@@ -82,11 +84,11 @@ struct Wall {
   std::vector<ListedCandidate> listed; ///< by contact
   std::vector<WallBond> bonds;         ///< ascending in particle
   LinearMaterial material;
+  bool bonds_yield = false; ///< bonds follow the bond law; otherwise they stay elastic
   std::vector<WallContactForce>
       contact_forces;        ///< of this rank's contacts and bonds in the last step
   std::vector<Vec3> normals; ///< unit, by triangle; see update_normals()
-
-  EnergySum energy() const; ///< stored by contacts and bonds of owned particles [J]
+  EnergySum work; ///< on the particles by the motion of the nodes, of all ranks [J]
 };
 
 Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
@@ -123,7 +125,8 @@ void update_normals(Wall& wall);
 
 /// Find the candidates: particles whose gap to a triangle is below (g_a + skin) S. They
 /// hold until a particle or a node has moved by half of skin S.
-void rebuild_wall(Wall& wall, const Particles& p, double skin);
+void rebuild_wall(Wall& wall, const PairMaterials& material, const Particles& p,
+                  double skin);
 
 /// Largest motion of a node since the candidates were found [m]; infinite before that.
 double travel(const Wall& wall);
@@ -142,10 +145,30 @@ struct WallSums {
 WallSums sum_contact_forces(const Wall& wall); ///< of this rank
 
 /// Add contacts and bonds to p.load and wall.f over the step dt [s] that ends now.
-/// @param yields bonds follow the bond law; otherwise they stay elastic
 /// @throws NumericalError naming the particle, as patch_contact()
-void add_wall_forces(const BondLaw& law, bool yields, double dt, Particles& p, Wall& wall,
+void add_wall_forces(Wall& wall, const PairMaterials& material, double dt, Particles& p,
                      PairLosses& losses);
+
+/// Stored by contacts and bonds of owned particles [J].
+EnergySum stored_energy(const Wall& wall);
+
+/// Power on the particles at the present velocities, from the forces of the last step [W].
+double power(const Wall& wall);
+
+/// The records that belong to a particle and migrate with it.
+inline auto histories(Wall& wall)
+{
+  return std::tie(wall.contacts, wall.bonds);
+}
+
+/// Show each exact sum, with its name, to `visit(name, kind, sum)`.
+template <class AnyWall, class Visit>
+requires std::same_as<std::remove_const_t<AnyWall>, Wall>
+void visit_sums(AnyWall& wall, Visit&& visit)
+{
+  visit("force", SumKind::forces, wall.f);
+  visit("work", SumKind::total, wall.work);
+}
 
 /// Position or velocity of an anchor, from those of the nodes.
 Vec3 at(const std::vector<Vec3>& nodal, const WallTopology& t, const Anchor& a);

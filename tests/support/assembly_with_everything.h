@@ -7,7 +7,7 @@
 namespace mergel::dem::test {
 
 /// A row of bonded particles that moves against a plane, a triangulated wall, a mirror and
-/// a pile: every kind of history is present, and none is zero.
+/// a cone: every kind of history is present, and none is zero.
 inline Assembly assembly_with_everything()
 {
   Assembly assembly;
@@ -33,10 +33,9 @@ inline Assembly assembly_with_everything()
   }
   assembly.bonds =
       make_bonds(assembly.particles, assembly.cell, {{0, 1, {}}, {1, 2, {}}, {2, 3, {}}});
-  PlaneWall floor;
-  floor.material = assembly.material.contact;
-  floor.plane.v = {0.001, 0.0, 0.0};
-  assembly.planes.push_back(floor);
+  RigidWall floor = make_rigid_wall(Plane{}, Vec3::Zero(), assembly.material.contact);
+  floor.v = {0.001, 0.0, 0.0};
+  assembly.rigid_walls.push_back(floor);
   assembly.mirrors.emplace_back();
   bond_to_mirror(assembly.mirrors.front(), assembly.particles, 1e-3);
   assembly.walls.push_back(
@@ -44,27 +43,21 @@ inline Assembly assembly_with_everything()
                 {{0, 1, 2}}, assembly.material.contact));
   assembly.walls.front().v = {{1e-3, 0, 0}, {2e-3, 0, 0}, {0, 1e-3, 0}};
   bond_to_wall(assembly.walls.front(), assembly.particles, 1e-3);
-  PileWall pile;
-  pile.pile.R = 0.004;
-  pile.pile.cone_height = 0.004;
-  pile.pile.x_axis = 0.06;
-  pile.pile.y_axis = 0.0105;
-  pile.pile.z_tip = 0.0199;
-  pile.pile.v_z = -0.05;
-  pile.material = assembly.material.contact;
-  assembly.piles.push_back(pile);
+  RigidWall cone = make_rigid_wall(cone_ended(0.004, 0.004), {0.06, 0.0105, 0.0199},
+                                   assembly.material.contact);
+  cone.v = {0.0, 0.0, -0.05};
+  assembly.rigid_walls.push_back(cone);
   add_forces(assembly, 0.0);
   return assembly;
 }
 
-/// One step of it: pile, wall and floor move at their velocities.
+/// One step of it: cone, wall and floor move at their velocities.
 inline void step_with_everything(Assembly& assembly, double dt)
 {
   advance(assembly, dt, dt, [&](double h) {
-    assembly.piles.front().pile.z_tip += h * assembly.piles.front().pile.v_z;
     for (std::size_t k = 0; k < 3; ++k)
       assembly.walls.front().x[k] += h * assembly.walls.front().v[k];
-    assembly.planes.front().plane.point += h * assembly.planes.front().plane.v;
+    for (RigidWall& w : assembly.rigid_walls) w.x += h * w.v;
   });
 }
 

@@ -19,7 +19,7 @@
 
 #include "tests/support/dem_scene.h"
 
-#include "dem/walls/surfaces.h"
+#include "dem/walls/rigid_wall.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,25 +148,21 @@ Rebound run(const Impact& c, const Frame& frame, const Resolution& how, Watch&& 
     particle.omega = b.spin * frame.z();
   };
   add(c.i, -c.i.R - gap_0);
-  const Plane plane{Vec3::Zero(), -frame.n};
-  SurfaceContacts at_plane;
+  RigidWall plane = make_rigid_wall(Plane{-frame.n}, Vec3::Zero(),
+                                    contact(c.k_n / (pi * c.i.R), c.kappa, c.mu, 0.0));
   if (c.j) {
     add(*c.j, c.j->R);
     const double r = std::min(c.i.R, c.j->R), L = c.i.R + c.j->R;
     s.material.contact = contact(c.k_n * L / (pi * r * r), c.kappa, c.mu, 0.0);
     s.add_contacts({{0, 1}});
   } else {
-    at_plane.rebuild(s.p, 0.0, c.i.R, Vec3::Zero(),
-                     [&](const ParticleState& b) { return plane.contact_geometry(b).gap; });
-    s.add_more = [&](double step) {
-      add_plane_forces(contact(c.k_n / (pi * c.i.R), c.kappa, c.mu, 0.0), plane, step, s.p,
-                       at_plane, s.losses);
-    };
+    rebuild_wall(plane, {}, s.p, c.i.R);
+    s.add_more = [&](double step) { add_wall_forces(plane, {}, step, s.p, s.losses); };
   }
   const ParticleState& i = s.p.state[0];
   const auto gap = [&] {
     return c.j ? (s.p.state[1].x - i.x).norm() - c.i.R - c.j->R
-               : plane.contact_geometry(i).gap;
+               : closest_point(plane, i).gap;
   };
   bool has_touched = false;
   for (int k = 0; k < 100 * how.n; ++k) { // a damped rebound takes long, but ends

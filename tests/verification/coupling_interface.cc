@@ -187,12 +187,8 @@ TEST_CASE("rebuilding the lists at every step changes no bit, walls and mirror i
     at_cut.x = {0.4e-3, at_cut.R * 0.999, -2e-3};
     assembly.particles.add(at_cut);
     assembly.mirrors.emplace_back();
-    dem::PileWall pile;
-    pile.pile.R = 0.2e-3;
-    pile.pile.cone_height = 0.3e-3;
-    pile.pile.z_tip = -2.2e-3;
-    pile.material = contact;
-    assembly.piles.push_back(pile);
+    assembly.rigid_walls.push_back(dem::make_rigid_wall(dem::cone_ended(0.2e-3, 0.3e-3),
+                                                        {0.0, 0.0, -2.2e-3}, contact));
     dem::add_forces(assembly, 0.0);
     for (int s = 0; s < 3000; ++s) {
       if (rebuild_always) assembly.list.invalidate();

@@ -1,6 +1,6 @@
 #include "tests/support/dem_scene.h"
 
-#include "dem/walls/surfaces.h"
+#include "dem/walls/rigid_wall.h"
 
 #include <catch2/catch.hpp>
 
@@ -20,14 +20,10 @@ TEST_CASE("A sliding sphere rolls after 2 v0/(7 mu g) at 5/7 v0", "[verification
   b.v.x() = v_0;
   s.motion.gravity = {0.0, 0.0, -g};
   s.motion.free_rotation = true;
-  const Plane plane{};
-  SurfaceContacts contacts;
-  contacts.rebuild(s.p, 0.0, 1e-3, Vec3::Zero(),
-                   [&](const ParticleState& q) { return plane.contact_geometry(q).gap; });
-  REQUIRE(contacts.contacts().size() == 1);
-  s.add_more = [&](double dt) {
-    add_plane_forces(law, plane, dt, s.p, contacts, s.losses);
-  };
+  RigidWall plane = make_rigid_wall(Plane{}, Vec3::Zero(), law);
+  rebuild_wall(plane, {}, s.p, 1e-3);
+  REQUIRE(plane.contacts.size() == 1);
+  s.add_more = [&](double dt) { add_wall_forces(plane, {}, dt, s.p, s.losses); };
 
   const double dt = 0.1 * std::sqrt(b.m / k_n);
   const double t_roll = 2.0 * v_0 / (7.0 * law.mu * g);
@@ -36,7 +32,7 @@ TEST_CASE("A sliding sphere rolls after 2 v0/(7 mu g) at 5/7 v0", "[verification
   int n_mean = 0;
   for (int step = 1; step <= n; ++step) {
     s.step(dt);
-    const double f_s = contacts.contacts()[0].f_s.norm();
+    const double f_s = plane.contacts[0].f_s.norm();
     if (t_stick == 0.0 && step > 100 && f_s < 0.99 * law.mu * b.m * g) t_stick = step * dt;
     if (step > 0.8 * n) { // the shear spring oscillates: average
       v_mean += b.v.x();

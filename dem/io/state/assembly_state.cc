@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 
 namespace mergel::dem {
 
@@ -13,83 +14,41 @@ namespace {
 
 constexpr std::size_t words = sizeof(ExactWide) / sizeof(std::uint64_t);
 
-template <class Sum>
-void append(std::vector<ExactWide*>& to, ExactVector<Sum>& v)
+/// Exact sums as integers in words of 64 bits, the lowest first, each under its name; each
+/// is the total over all ranks. Collective.
+void save_sums(State& state, const Assembly& assembly)
 {
-  to.insert(to.end(), {&v.x.raw(), &v.y.raw(), &v.z.raw()});
+  std::map<std::string, std::vector<ExactWide>> all;
+  ExactReduction partial;
+  visit_sums(assembly, [&](const char* name, SumKind kind, const auto& sum) {
+    std::vector<ExactWide>& raw = all["sum_" + std::string(name)];
+    visit_raw(sum, [&](const ExactWide& a) { raw.push_back(a); });
+    if (kind == SumKind::by_rank)
+      for (ExactWide& a : raw) partial.add(a);
+  });
+  partial.run(assembly.comm);
+  for (const auto& [name, raw] : all) {
+    std::vector<std::uint64_t> rows(words * raw.size());
+    std::memcpy(rows.data(), raw.data(), raw.size() * sizeof(ExactWide));
+    state.add_common(name, std::move(rows), words);
+  }
 }
 
-/// The sums of which each rank holds a part; ExactReduction adds them up.
-std::vector<ExactWide*> sums_of_ranks(Assembly& assembly)
+void load_sums(const State& state, Assembly& assembly)
 {
-  std::vector<ExactWide*> sums;
-  for (EnergySum* s :
-       {&assembly.losses.slip, &assembly.losses.plastic, &assembly.losses.breakage_release,
-        &assembly.work.gravity, &assembly.work.damping, &assembly.work.rotation_constraint})
-    sums.push_back(&s->raw());
-  for (Mirror& m : assembly.mirrors) {
-    sums.push_back(&m.energy.raw());
-    append(sums, m.force);
-  }
-  return sums;
-}
-
-/// The sums of which every rank holds the total.
-std::vector<ExactWide*> sums_of_all(Assembly& assembly)
-{
-  std::vector<ExactWide*> sums{&assembly.wall_work.raw(), &assembly.pile_work.raw(),
-                               &assembly.cell_work.raw()};
-  append(sums, assembly.virial);
-  for (PlaneWall& w : assembly.planes) append(sums, w.force);
-  for (Wall& w : assembly.walls)
-    for (VectorSum& f : w.f) append(sums, f);
-  for (PileWall& w : assembly.piles) {
-    append(sums, w.load.cone);
-    append(sums, w.load.shaft);
-  }
-  return sums;
-}
-
-/// A copy of the sums of an assembly only.
-Assembly copy_of_sums(const Assembly& assembly)
-{
-  Assembly copy;
-  copy.losses.slip = assembly.losses.slip;
-  copy.losses.plastic = assembly.losses.plastic;
-  copy.losses.breakage_release = assembly.losses.breakage_release;
-  copy.work = assembly.work;
-  copy.wall_work = assembly.wall_work;
-  copy.pile_work = assembly.pile_work;
-  copy.cell_work = assembly.cell_work;
-  copy.virial = assembly.virial;
-  for (const Mirror& m : assembly.mirrors) {
-    copy.mirrors.emplace_back();
-    copy.mirrors.back().energy = m.energy;
-    copy.mirrors.back().force = m.force;
-  }
-  for (const PlaneWall& w : assembly.planes) copy.planes.emplace_back().force = w.force;
-  for (const Wall& w : assembly.walls) copy.walls.emplace_back().f = w.f;
-  for (const PileWall& w : assembly.piles) copy.piles.emplace_back().load = w.load;
-  return copy;
+  visit_sums(assembly, [&](const char* name, SumKind, auto& sum) {
+    std::size_t n = 0;
+    visit_raw(sum, [&](ExactWide&) { ++n; });
+    const auto& rows = state.get_rows<std::uint64_t>("sum_" + std::string(name), n, words);
+    const std::uint64_t* from = rows.data();
+    visit_raw(sum, [&](ExactWide& a) {
+      std::memcpy(&a, from, sizeof a);
+      from += words;
+    });
+  });
 }
 
 } // namespace
-
-void save_sums(State& state, const std::string& name, const std::vector<ExactWide*>& sums)
-{
-  std::vector<std::uint64_t> raw(words * sums.size());
-  for (std::size_t k = 0; k < sums.size(); ++k)
-    std::memcpy(&raw[words * k], sums[k], sizeof(ExactWide));
-  state.add_common(name, std::move(raw), words);
-}
-
-void load_sums(const State& state, const std::string& name,
-               const std::vector<ExactWide*>& sums)
-{
-  const auto& raw = state.get_rows<std::uint64_t>(name, sums.size(), words);
-  for (std::size_t k = 0; k < sums.size(); ++k)
-    std::memcpy(sums[k], &raw[words * k], sizeof(ExactWide));
-}
 
 void save(State& state, const Assembly& assembly)
 {
@@ -112,19 +71,7 @@ void save(State& state, const Assembly& assembly)
     broken_by.push_back(assembly.comm.global_sum(k));
   state.add_common("bonds_broken_by_mode", std::move(broken_by));
 
-  Assembly copy = copy_of_sums(assembly);
-  ExactReduction all;
-  for (EnergySum* s :
-       {&copy.losses.slip, &copy.losses.plastic, &copy.losses.breakage_release,
-        &copy.work.gravity, &copy.work.damping, &copy.work.rotation_constraint})
-    all.add(*s);
-  for (Mirror& m : copy.mirrors) {
-    all.add(m.energy);
-    all.add(m.force);
-  }
-  all.run(assembly.comm);
-  save_sums(state, "sums_over_grains", sums_of_ranks(copy));
-  save_sums(state, "sums_on_walls", sums_of_all(copy));
+  save_sums(state, assembly);
 }
 
 void load(State& state, Assembly& assembly)
@@ -151,8 +98,7 @@ void load(State& state, Assembly& assembly)
       state.get_rows<std::uint64_t>("bonds_broken_by_mode", n_break_modes);
   std::copy(broken_by.begin(), broken_by.end(), assembly.losses.broken_by.begin());
   assembly.losses.breakages = load_breakages(state, n);
-  load_sums(state, "sums_over_grains", sums_of_ranks(assembly));
-  load_sums(state, "sums_on_walls", sums_of_all(assembly));
+  load_sums(state, assembly);
   assembly.list.invalidate();
 }
 

@@ -9,11 +9,6 @@ namespace mergel::dem {
 
 namespace {
 
-std::string numbered(const char* what, std::size_t k)
-{
-  return what + std::to_string(k);
-}
-
 void check_particle(const std::string& name, std::uint32_t i, std::size_t n)
 {
   if (i >= n) State::refuse(name, "names a particle that does not exist");
@@ -56,7 +51,7 @@ std::vector<WallContact> load_wall_contacts(const State& state, const std::strin
   return contacts;
 }
 
-void save_mirror(State& state, const std::string& name, const Mirror& mirror)
+void save_wall(State& state, const std::string& name, const Mirror& mirror)
 {
   std::vector<std::uint32_t> particle;
   std::vector<double> history;
@@ -68,7 +63,7 @@ void save_mirror(State& state, const std::string& name, const Mirror& mirror)
   state.add(name + "_histories", std::move(history), 3);
 }
 
-void load_mirror(const State& state, const std::string& name, std::size_t n, Mirror& mirror)
+void load_wall(const State& state, const std::string& name, std::size_t n, Mirror& mirror)
 {
   const auto& particle = state.get<std::uint32_t>(name + "_grains");
   const auto& history = state.get_rows<double>(name + "_histories", particle.size(), 3);
@@ -152,58 +147,57 @@ void load_wall(const State& state, const std::string& name, std::size_t n, Wall&
   }
 }
 
+void save_wall(State& state, const std::string& name, const RigidWall& wall)
+{
+  const auto row = [](const Vec3& a) { return std::vector<double>{a.x(), a.y(), a.z()}; };
+  state.add_common(name + "_x", row(wall.x), 3);
+  state.add_common(name + "_v", row(wall.v), 3);
+  save_wall_contacts(state, name, wall.contacts);
+}
+
+void load_wall(const State& state, const std::string& name, std::size_t n, RigidWall& wall)
+{
+  wall.x = vec_at(state.get_rows<double>(name + "_x", 1, 3), 0);
+  wall.v = vec_at(state.get_rows<double>(name + "_v", 1, 3), 0);
+  wall.contacts = load_wall_contacts(state, name, n);
+}
+
+/// Numbers of walls by their kinds, under names of their own.
+template <class Visit>
+void visit_counts(const Assembly& assembly, Visit&& visit)
+{
+  visit("mirrors", assembly.mirrors.size());
+  visit("walls", assembly.walls.size());
+  visit("rigid_walls", assembly.rigid_walls.size());
+}
+
 } // namespace
 
 void save_walls(State& state, const Assembly& assembly)
 {
-  for (std::size_t k = 0; k < assembly.mirrors.size(); ++k)
-    save_mirror(state, numbered("mirror", k), assembly.mirrors[k]);
-  for (std::size_t k = 0; k < assembly.planes.size(); ++k) {
-    const PlaneWall& w = assembly.planes[k];
-    std::vector<double> place;
-    for (const Vec3& a : {w.plane.point, w.plane.normal, w.plane.v}) append(place, a);
-    state.add_common(numbered("plane", k) + "_place", std::move(place), 9);
-    save_wall_contacts(state, numbered("plane", k), w.contacts.contacts());
-  }
-  for (std::size_t k = 0; k < assembly.walls.size(); ++k)
-    save_wall(state, numbered("wall", k), assembly.walls[k]);
-  for (std::size_t k = 0; k < assembly.piles.size(); ++k) {
-    const Pile& a = assembly.piles[k].pile;
-    state.add_common<double>(numbered("pile", k) + "_place",
-                             {a.R, a.cone_height, a.x_axis, a.y_axis, a.z_tip, a.v_z}, 6);
-    save_wall_contacts(state, numbered("pile", k), assembly.piles[k].contacts.contacts());
-  }
-  state.add_common<std::uint64_t>("bodies",
-                                  {assembly.mirrors.size(), assembly.planes.size(),
-                                   assembly.walls.size(), assembly.piles.size()});
+  for_each_named_wall(assembly, [&](const std::string& name, const auto& wall) {
+    save_wall(state, name, wall);
+  });
+  visit_counts(assembly, [&](const char* name, std::size_t n) {
+    state.add_common<std::uint64_t>(name, {n});
+  });
 }
 
 void check_walls(const State& state, const Assembly& assembly)
 {
-  const std::vector<std::uint64_t> counts{assembly.mirrors.size(), assembly.planes.size(),
-                                          assembly.walls.size(), assembly.piles.size()};
-  if (state.get_rows<std::uint64_t>("bodies", counts.size()) != counts)
-    State::refuse("bodies", "has another number of walls or piles");
+  visit_counts(assembly, [&](const char* name, std::size_t n) {
+    const std::uint64_t found = state.get_rows<std::uint64_t>(name, 1)[0];
+    if (found != n)
+      State::refuse(name, "counts " + std::to_string(found) + ", the case has " +
+                              std::to_string(n));
+  });
 }
 
 void load_walls(const State& state, std::size_t n, Assembly& assembly)
 {
-  for (std::size_t k = 0; k < assembly.mirrors.size(); ++k)
-    load_mirror(state, numbered("mirror", k), n, assembly.mirrors[k]);
-  for (std::size_t k = 0; k < assembly.planes.size(); ++k) {
-    PlaneWall& w = assembly.planes[k];
-    const auto& place = state.get_rows<double>(numbered("plane", k) + "_place", 1, 9);
-    w.plane = {vec_at(place, 0), vec_at(place, 3), vec_at(place, 6)};
-    w.contacts.contacts() = load_wall_contacts(state, numbered("plane", k), n);
-  }
-  for (std::size_t k = 0; k < assembly.walls.size(); ++k)
-    load_wall(state, numbered("wall", k), n, assembly.walls[k]);
-  for (std::size_t k = 0; k < assembly.piles.size(); ++k) {
-    const auto& a = state.get_rows<double>(numbered("pile", k) + "_place", 1, 6);
-    assembly.piles[k].pile = {a[0], a[1], a[2], a[3], a[4], a[5]};
-    assembly.piles[k].contacts.contacts() =
-        load_wall_contacts(state, numbered("pile", k), n);
-  }
+  for_each_named_wall(assembly, [&](const std::string& name, auto& wall) {
+    load_wall(state, name, n, wall);
+  });
 }
 
 } // namespace mergel::dem

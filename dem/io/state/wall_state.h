@@ -1,6 +1,6 @@
-/// Mirrors, planes, walls and piles of an assembly as arrays of a state: their positions,
-/// and the histories of their contacts and bonds. Forces on them are saved with the exact
-/// sums (assembly_state.h).
+/// The walls of an assembly as arrays of a state: their positions, and the histories of
+/// their contacts and bonds. Forces on them are saved with the exact sums
+/// (assembly_state.h).
 #pragma once
 
 #include "dem/assembly/step.h"
@@ -11,7 +11,7 @@ namespace mergel::dem {
 /// Each rank saves the histories of its own particles.
 void save_walls(State& state, const Assembly& assembly);
 
-/// @throws InputError when the state has another number of mirrors, planes, walls or piles
+/// @throws InputError when the state has another number of walls of a kind
 void check_walls(const State& state, const Assembly& assembly);
 
 /// Load all histories, in ascending order. @pre check_walls(state, assembly)

@@ -4,6 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <fstream>
+#include <iterator>
+
 using namespace mergel;
 using namespace mergel::apps;
 
@@ -93,4 +96,25 @@ TEST_CASE("keys that contradict each other are named with a remedy", "[unit][app
   CHECK(refusal({"Specimen/porosity=0.2"})
             .find("--set Specimen/porosity = 0.2: must be at least 0.479") == 0);
   CHECK(refusal({"Specimen/largest diameter=0.01 mm"}) != "");
+}
+
+TEST_CASE(
+    "a flat pile has no cone: its shaft begins at the tip, and a cone angle is refused",
+    "[unit][apps]")
+{
+  // The shipped case has a cone angle, which a flat pile cannot have.
+  CHECK(refusal({"Pile/tip=flat"}).find("cone angle") != std::string::npos);
+
+  std::ifstream in(cases / "pile_small.prm");
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  const auto line = text.find("set cone angle");
+  text.erase(line, text.find('\n', line) - line);
+  CaseFile file;
+  PileCase c;
+  declare(file, c);
+  file.read_text(text, (cases / "pile_small.prm").string(), {"Pile/tip=flat"});
+  complete(file, c);
+  CHECK(c.tip == PileCase::Tip::flat);
+  CHECK(c.tip_height() == 0.0);
+  CHECK(c.travel() == c.final_depth);
 }

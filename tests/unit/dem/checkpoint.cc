@@ -102,10 +102,10 @@ TEST_CASE("an assembly continues from a checkpoint with the same bits", "[unit][
   CHECK(first_difference(kept(assembly), kept(other)).empty());
 
   // Every kind of history took part.
-  CHECK(assembly.planes.front().contacts.contacts().front().f_s.norm() > 0.0);
+  CHECK(assembly.rigid_walls.front().contacts.front().f_s.norm() > 0.0);
   CHECK(assembly.walls.front().contacts.size() == 1);
   CHECK(assembly.walls.front().bonds.front().V.norm() > 0.0);
-  CHECK(assembly.piles.front().load.cone.z.value() > 0.0);
+  CHECK(assembly.rigid_walls.back().force[Revolution::tip].z.value() > 0.0);
   CHECK(assembly.contacts.shear.size() > 0);
   CHECK(contact_shear_of(assembly.bonds, 0).norm() > 0.0);
   CHECK(assembly.mirrors.front().energy.value() > 0.0);
@@ -219,10 +219,9 @@ TEST_CASE("arrays that do not fit each other are refused by name", "[unit][dem]"
                s.add<std::int32_t>("grain_bonds", {1, 1});
              }),
              Contains("grain_bonds has 2 rows, not 6"));
-  CHECK_THAT(refusal_with([](State& s) {
-               s.add_common<std::uint64_t>("bodies", {1, 1, 1, 0});
-             }),
-             Contains("has another number of walls or piles"));
+  CHECK_THAT(
+      refusal_with([](State& s) { s.add_common<std::uint64_t>("rigid_walls", {3}); }),
+      Contains("rigid_walls counts 3, the case has 2"));
   CHECK_THAT(
       refusal_with([](State& s) { s.add<std::int32_t>("wall0_bond_triangles", {1}); }),
       Contains("names a triangle that does not exist"));

@@ -27,7 +27,7 @@ struct Halved {
     p.state[0].v.y() = u / 1e-4;
     p.state[0].x.y() += u;
     clear_loads(p);
-    add_mirror_forces(material, 1e-4, p, mirror, losses);
+    add_wall_forces(mirror, material, 1e-4, p, losses);
   }
 };
 
@@ -100,16 +100,16 @@ TEST_CASE("The image of an unbonded particle repels it and never attracts it",
   p.add(sphere({0.0, R - 1e-4, 0.0}, R));
   p.add(sphere({0.2, R + 1e-4, 0.0}, R));
   Mirror mirror;
-  rebuild_mirror(mirror, p, 0.0, 1e-3);
+  rebuild_wall(mirror, {}, p, 1e-3);
   REQUIRE(mirror.pairs.size() == 2);
   PairLosses losses;
   const LinearMaterial law = contact(63e6, 2.4, 0.4, 0.0);
-  add_mirror_forces({bond_of_table_1(), law}, 0.0, p, mirror, losses);
+  add_wall_forces(mirror, {bond_of_table_1(), law}, 0.0, p, losses);
   CHECK(p.load[0].f.y() == Approx(63e6 * pi * R * R / (2 * R) * 2e-4).epsilon(1e-9));
   CHECK(p.load[1].f.norm() == 0.0);
 
   p.state[0].x.y() = -1e-6;
-  CHECK_THROWS_AS(add_mirror_forces({bond_of_table_1(), law}, 0.0, p, mirror, losses),
+  CHECK_THROWS_AS(add_wall_forces(mirror, {bond_of_table_1(), law}, 0.0, p, losses),
                   mergel::NumericalError);
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("A rebuild drops the distant pairs of the mirror and keeps the bonded 
   Halved s;
   s.p.state[0].x.y() += 1.0;
   s.p.add(sphere({0.0, R + 1.0, 0.0}, R));
-  rebuild_mirror(s.mirror, s.p, 0.0, 1e-3);
+  rebuild_wall(s.mirror, {}, s.p, 1e-3);
   REQUIRE(s.mirror.pairs.size() == 1);
   CHECK(s.mirror.pairs[0].particle == 0);
   CHECK(s.mirror.pairs[0].bond.intact == 1.0);

@@ -1,6 +1,6 @@
 #include "tests/support/dem_scene.h"
 
-#include "dem/walls/surfaces.h"
+#include "dem/walls/rigid_wall.h"
 #include "dem/walls/triangulated.h"
 
 #include <catch2/catch.hpp>
@@ -31,7 +31,8 @@ TEST_CASE("A plane and the same plane of triangles have the same contact force",
   const Vec3 n = turn * Vec3::UnitZ();
   const Vec3 v_wall(1e-3, 2e-3, -3e-3);
 
-  Plane plane{Vec3::Zero(), n, v_wall};
+  RigidWall plane = make_rigid_wall(Plane{n}, Vec3::Zero(), law);
+  plane.v = v_wall;
   std::vector<Vec3> x;
   std::vector<Triangle> triangles;
   for (int i = 0; i <= 8; ++i)
@@ -49,10 +50,8 @@ TEST_CASE("A plane and the same plane of triangles have the same contact force",
   Particles one, two;
   one.add(sphere(0.99 * R * n, R));
   two.add(sphere(0.99 * R * n, R));
-  SurfaceContacts contacts;
-  contacts.rebuild(one, law.g_a, 1e-3, Vec3::Zero(),
-                   [&](const ParticleState& b) { return plane.contact_geometry(b).gap; });
-  REQUIRE(contacts.contacts().size() == 1);
+  rebuild_wall(plane, {}, one, 1e-3);
+  REQUIRE(plane.contacts.size() == 1);
   PairLosses losses_1, losses_2;
   double worst = 0.0, largest = 0.0;
   for (int step = 0; step < 3000; ++step) {
@@ -60,10 +59,10 @@ TEST_CASE("A plane and the same plane of triangles have the same contact force",
     move_along_path(two.state[0], step);
     clear_loads(one);
     clear_loads(two);
-    rebuild_wall(wall, two, 1e-4);
-    const Vec3 on_plane =
-        add_plane_forces(law, plane, 1e-6, one, contacts, losses_1).value();
-    add_wall_forces({}, false, 1e-6, two, wall, losses_2);
+    rebuild_wall(wall, {}, two, 1e-4);
+    add_wall_forces(plane, {}, 1e-6, one, losses_1);
+    const Vec3 on_plane = plane.resultant();
+    add_wall_forces(wall, {}, 1e-6, two, losses_2);
     worst = std::max(worst, (one.load[0].f - two.load[0].f).norm());
     worst = std::max(worst, (one.load[0].t - two.load[0].t).norm() / R);
     worst = std::max(worst, (on_plane + one.load[0].f).norm());
@@ -80,25 +79,24 @@ TEST_CASE("A plane acts along its normal, and a particle behind it stops the run
           "[unit][dem]")
 {
   const LinearMaterial law = contact(1e9, 2.0, 0.3, 1e-5);
-  const Plane plane{{0, 0, 5e-3}, {0, 0, 1}, Vec3::Zero()};
+  RigidWall plane = make_rigid_wall(Plane{}, {0, 0, 5e-3}, law);
   Particles p;
   p.add(sphere({1e-3, 2e-3, 5.995e-3}, R));
   p.add(sphere({9e-3, 2e-3, 9e-3}, R));
-  SurfaceContacts contacts;
-  contacts.rebuild(p, law.g_a, 1e-4, Vec3::Zero(),
-                   [&](const ParticleState& b) { return plane.contact_geometry(b).gap; });
-  REQUIRE(contacts.contacts().size() == 1);
-  CHECK_FALSE(contacts.has_moved({0, 0, 0.9e-4}, 1e-4));
-  CHECK(contacts.has_moved({0, 0, 1.1e-4}, 1e-4));
+  rebuild_wall(plane, {}, p, 1e-4);
+  REQUIRE(plane.contacts.size() == 1);
+  plane.x.z() += 2e-7;
+  CHECK(travel(plane) == Approx(2e-7).epsilon(1e-9));
+  plane.x.z() -= 2e-7;
   PairLosses losses;
-  const Vec3 on_plane = add_plane_forces(law, plane, 0.0, p, contacts, losses).value();
+  add_wall_forces(plane, {}, 0.0, p, losses);
+  const Vec3 on_plane = plane.resultant();
   CHECK(p.load[0].f.z() == Approx(1e9 * pi * R * 1.5e-5).epsilon(1e-9));
   CHECK(p.load[0].t.norm() < 1e-15);
   CHECK(on_plane.z() == Approx(-p.load[0].f.z()).epsilon(1e-14));
-  CHECK(contacts.energy().value() ==
+  CHECK(stored_energy(plane).value() ==
         Approx(0.5 * 1e9 * pi * R * 1.5e-5 * 1.5e-5).epsilon(1e-9));
 
   p.state[0].x.z() = 4.999e-3;
-  CHECK_THROWS_AS(add_plane_forces(law, plane, 0.0, p, contacts, losses),
-                  mergel::NumericalError);
+  CHECK_THROWS_AS(add_wall_forces(plane, {}, 0.0, p, losses), mergel::NumericalError);
 }

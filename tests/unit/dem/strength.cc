@@ -214,7 +214,7 @@ TEST_CASE("Bonds to a wall and to the mirror image take the factor of their part
   const double u = 0.7 * R / law.E * law.sigma_t; // the image doubles it, over two radii
   p.state[0].v.y() = u / dt;
   p.state[0].x.y() += u;
-  add_mirror_forces({law, no_contact()}, dt, p, mirror, losses);
+  add_wall_forces(mirror, {law, no_contact()}, dt, p, losses);
   CHECK(-p.load[0].f.y() / mirror.pairs[0].bond.intact ==
         Approx(f * law.sigma_t * A).epsilon(1e-9));
 
@@ -229,7 +229,8 @@ TEST_CASE("Bonds to a wall and to the mirror image take the factor of their part
   }
   p.state[0].v.setZero();
   update_normals(wall);
-  add_wall_forces(law, true, dt, p, wall, losses);
+  wall.bonds_yield = true;
+  add_wall_forces(wall, {law, {}}, dt, p, losses);
   CHECK(-p.load[0].f.z() / wall.bonds[0].state.intact ==
         Approx(f * law.sigma_t * A).epsilon(1e-9));
 }

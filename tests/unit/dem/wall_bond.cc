@@ -35,7 +35,8 @@ struct Bonded {
       }
       update_normals(wall);
       clear_loads(p);
-      add_wall_forces(bond, yields, dt, p, wall, losses);
+      wall.bonds_yield = yields;
+      add_wall_forces(wall, {bond, {}}, dt, p, losses);
     }
     return p.load[0].f;
   }

@@ -35,8 +35,8 @@ ContactLoad force_at(Wall& wall, const Vec3& x)
   p.add(sphere(x, R));
   PairLosses losses;
   wall.contacts.clear();
-  rebuild_wall(wall, p, 1e-4);
-  add_wall_forces({}, false, 0.0, p, wall, losses);
+  rebuild_wall(wall, {}, p, 1e-4);
+  add_wall_forces(wall, {}, 0.0, p, losses);
   return {p.load[0].f, p.load[0].t};
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("Force, moment and power at the nodes balance those on the particle",
     p.state[0].omega = 1e2 * random_vector(random);
     for (Vec3& v : wall.v) v = 1e-3 * random_vector(random);
     wall.contacts.clear();
-    rebuild_wall(wall, p, 1e-4);
+    rebuild_wall(wall, {}, p, 1e-4);
     const auto geometry = patch_contact(wall, wall.listed.at(0), p.state[0], 0.0);
     if (!geometry) continue;
     n_shared += geometry->n > 1;
@@ -165,7 +165,7 @@ TEST_CASE("Force, moment and power at the nodes balance those on the particle",
     for (std::size_t k = 0; k < geometry->n; ++k) weights += geometry->shares[k].weight;
     CHECK(weights == Approx(1.0).epsilon(1e-14));
     PairLosses losses;
-    add_wall_forces({}, false, 1e-6, p, wall, losses);
+    add_wall_forces(wall, {}, 1e-6, p, losses);
     const Vec3 on_particle = p.load[0].f;
     if (on_particle.norm() < 1.0)
       continue; // barely touching: the quantum of the sums is not negligible

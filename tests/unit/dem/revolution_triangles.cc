@@ -1,6 +1,6 @@
 #include "tests/support/dem_scene.h"
 
-#include "dem/walls/surfaces.h"
+#include "dem/walls/rigid_wall.h"
 #include "dem/walls/triangulated.h"
 
 #include <catch2/catch.hpp>
@@ -13,16 +13,11 @@ namespace {
 constexpr double R = 0.2e-3;
 const LinearMaterial law = contact(1e9, 2.0, 0.0, 0.0);
 
-Pile exact_pile()
-{
-  Pile s;
-  s.R = 0.7e-3;
-  s.cone_height = 0.7e-3 * std::sqrt(3.0);
-  return s;
-}
+/// Diameter 1.4 mm, cone of 60 degrees.
+const Revolution exact_body = cone_ended(0.7e-3, 0.7e-3 * std::sqrt(3.0));
 
-/// The pile with n chords around it, each corner on the true surface.
-Wall pile_of_triangles(const Pile& s, int n)
+/// The body with n chords around it, each corner on the true surface.
+Wall body_of_triangles(const Revolution& s, int n)
 {
   std::vector<Vec3> x{{0, 0, 0}};
   const auto ring = [&](double r, double z) {
@@ -31,10 +26,10 @@ Wall pile_of_triangles(const Pile& s, int n)
       x.emplace_back(r * std::cos(phi), r * std::sin(phi), z);
     }
   };
-  ring(0.5 * s.R, 0.5 * s.cone_height);
-  ring(s.R, s.cone_height);
-  ring(s.R, s.cone_height + 1e-3);
-  ring(s.R, s.cone_height + 2e-3);
+  ring(0.5 * s.R(), 0.5 * s.tip_height());
+  ring(s.R(), s.tip_height());
+  ring(s.R(), s.tip_height() + 1e-3);
+  ring(s.R(), s.tip_height() + 2e-3);
   std::vector<Triangle> triangles;
   for (int k = 0; k < n; ++k) {
     const int next = (k + 1) % n;
@@ -52,29 +47,28 @@ Wall pile_of_triangles(const Pile& s, int n)
 /// relative to the force.
 double largest_error(int n)
 {
-  const Pile s = exact_pile();
-  Wall wall = pile_of_triangles(s, n);
+  const Revolution& s = exact_body;
+  Wall wall = body_of_triangles(s, n);
   Particles exact;
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> u(0.0, 1.0);
   for (int k = 0; k < 200; ++k) {
     const double phi = 2.0 * pi * u(random), reach = 0.95 * R;
-    double r = s.R + reach, z = s.cone_height + 0.1e-3 + 1.5e-3 * u(random);
+    double r = s.R() + reach, z = s.tip_height() + 0.1e-3 + 1.5e-3 * u(random);
     if (k % 2 == 0) {
       const double t = 0.3 + 0.6 * u(random), c30 = std::sqrt(3.0) / 2.0;
-      r = t * s.R + reach * c30;
-      z = t * s.cone_height - 0.5 * reach;
+      r = t * s.R() + reach * c30;
+      z = t * s.tip_height() - 0.5 * reach;
     }
     exact.add(sphere({r * std::cos(phi), r * std::sin(phi), z}, R));
   }
   Particles meshed = exact;
-  SurfaceContacts contacts;
-  contacts.rebuild(exact, law.g_a, 1e-4, Vec3::Zero(),
-                   [&](const ParticleState& b) { return s.closest_point(b).geometry.gap; });
-  rebuild_wall(wall, meshed, 1e-4);
+  RigidWall rigid = make_rigid_wall(s, Vec3::Zero(), law);
+  rebuild_wall(rigid, {}, exact, 1e-4);
+  rebuild_wall(wall, {}, meshed, 1e-4);
   PairLosses losses;
-  add_pile_forces(law, s, 0.0, exact, contacts, losses);
-  add_wall_forces({}, false, 0.0, meshed, wall, losses);
+  add_wall_forces(rigid, {}, 0.0, exact, losses);
+  add_wall_forces(wall, {}, 0.0, meshed, losses);
   double worst = 0.0;
   for (std::size_t i = 0; i < exact.size(); ++i)
     worst = std::max(worst, std::abs(exact.load[i].f.norm() - meshed.load[i].f.norm()) /
@@ -85,14 +79,14 @@ double largest_error(int n)
 /// Depth of the chord below the arc [m].
 double sagitta(int n)
 {
-  return exact_pile().R * (1.0 - std::cos(pi / n));
+  return exact_body.R() * (1.0 - std::cos(pi / n));
 }
 
 } // namespace
 
-TEST_CASE(
-    "The triangulated pile has the force of the exact pile to second order in the chord",
-    "[unit][dem]")
+TEST_CASE("A triangulated body of revolution has the force of the exact one to second "
+          "order in the chord",
+          "[unit][dem]")
 {
   const double e_100 = largest_error(100), e_200 = largest_error(200),
                e_400 = largest_error(400);
@@ -104,17 +98,17 @@ TEST_CASE(
   CHECK(e_200 / e_400 == Approx(4.0).epsilon(0.15));
 }
 
-TEST_CASE("A particle at the shoulder of a triangulated pile has one contact force",
+TEST_CASE("A particle at the shoulder of a triangulated body has one contact force",
           "[unit][dem]")
 {
   // The shoulder is a ridge of 30 degrees, the limit of one smooth patch.
-  const Pile s = exact_pile();
-  Wall wall = pile_of_triangles(s, 200);
+  const Revolution& s = exact_body;
+  Wall wall = body_of_triangles(s, 200);
   Particles p;
   const double a = 0.95 * R, c15 = std::cos(pi / 12.0), s15 = std::sin(pi / 12.0);
-  p.add(sphere({s.R + a * c15, 0.0, s.cone_height - a * s15}, R)); // before the ridge
-  rebuild_wall(wall, p, 1e-4);
+  p.add(sphere({s.R() + a * c15, 0.0, s.tip_height() - a * s15}, R)); // before the ridge
+  rebuild_wall(wall, {}, p, 1e-4);
   PairLosses losses;
-  add_wall_forces({}, false, 0.0, p, wall, losses);
+  add_wall_forces(wall, {}, 0.0, p, losses);
   CHECK(p.load[0].f.norm() == Approx(law.E * pi * R * 0.05 * R).epsilon(1e-3));
 }

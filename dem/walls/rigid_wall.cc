@@ -1,0 +1,81 @@
+#include "dem/walls/rigid_wall.h"
+
+namespace mergel::dem {
+
+RigidWall make_rigid_wall(RigidShape shape, const Vec3& x, const LinearMaterial& material)
+{
+  RigidWall wall;
+  wall.force.resize(std::visit([](const auto& s) { return s.parts.size(); }, shape));
+  wall.shape = std::move(shape);
+  wall.x = wall.x_listed = x;
+  wall.material = material;
+  return wall;
+}
+
+Vec3 RigidWall::resultant() const
+{
+  Vec3 sum = Vec3::Zero();
+  for (const VectorSum& f : force) sum += f.value();
+  return sum;
+}
+
+SurfacePoint closest_point(const RigidWall& wall, const ParticleState& b)
+{
+  return std::visit([&](const auto& shape) { return shape.closest_point(b, wall.x); },
+                    wall.shape);
+}
+
+void rebuild_wall(RigidWall& wall, const PairMaterials&, const Particles& p, double skin)
+{
+  std::vector<WallContact> near;
+  std::visit(
+      [&](const auto& shape) {
+        p.for_owned([&](Index i) {
+          const ParticleState& b = p.state[i];
+          const double gap =
+              with_particle_id(p.id[i], [&] { return shape.closest_point(b, wall.x).gap; });
+          if (gap < (wall.material.g_a + skin) * b.S)
+            near.push_back({i, 0, {0, 0, 0}, 0.0});
+        });
+      },
+      wall.shape);
+  wall.contacts = carry_history(std::move(near), wall.contacts);
+  wall.x_listed = wall.x;
+}
+
+double travel(const RigidWall& wall)
+{
+  return (wall.x - wall.x_listed).norm();
+}
+
+void add_wall_forces(RigidWall& wall, const PairMaterials&, double dt, Particles& p,
+                     PairLosses& losses)
+{
+  for (VectorSum& f : wall.force) f.clear();
+  std::visit(
+      [&](const auto& shape) {
+        for (WallContact& c : wall.contacts) {
+          ParticleState& particle = p.state[c.particle];
+          const SurfacePoint closest = with_particle_id(
+              p.id[c.particle], [&] { return shape.closest_point(particle, wall.x); });
+          wall.force[closest.part].add(-add_wall_contact(
+              wall.material, {closest.n, closest.gap, closest.point, wall.v}, dt, particle,
+              p.load[c.particle], c, losses));
+        }
+      },
+      wall.shape);
+}
+
+EnergySum stored_energy(const RigidWall& wall)
+{
+  EnergySum e;
+  for (const WallContact& c : wall.contacts) e.add(c.energy);
+  return e;
+}
+
+double power(const RigidWall& wall)
+{
+  return -wall.resultant().dot(wall.v);
+}
+
+} // namespace mergel::dem

@@ -1,0 +1,87 @@
+/// A rigid wall: one of several shapes, moved by the caller as a whole (dem/README.md,
+/// Walls).
+///
+/// To add a shape: a header beside plane.h that meets IsRigidShape, its name in RigidShape,
+/// its keys in the job that makes it, and a test. Nothing else knows the shapes.
+#pragma once
+
+#include "dem/walls/plane.h"
+#include "dem/walls/revolution.h"
+
+#include <concepts>
+#include <variant>
+#include <vector>
+
+namespace mergel::dem {
+
+/// A shape has named parts, whose resultants are kept apart, and a closest point to a
+/// particle when the body stands at x [m].
+// clang-format off
+template <class Shape>
+concept IsRigidShape =
+    requires(const Shape& shape, const ParticleState& b, const Vec3& x)
+{
+  { Shape::parts.size() } -> std::convertible_to<std::size_t>;
+  { Shape::parts.front() } -> std::convertible_to<const char*>;
+  { shape.closest_point(b, x) } -> std::same_as<SurfacePoint>;
+};
+// clang-format on
+
+using RigidShape = std::variant<Plane, Revolution>;
+static_assert(IsRigidShape<Plane> && IsRigidShape<Revolution>);
+
+struct RigidWall {
+  RigidShape shape;
+  Vec3 x = Vec3::Zero(); ///< position: the origin of the shape [m]; set by the caller
+  Vec3 v = Vec3::Zero(); ///< velocity [m/s]; set by the caller
+  LinearMaterial material;
+  std::vector<WallContact> contacts; ///< candidates, ascending in particle
+  Vec3 x_listed = Vec3::Zero();      ///< x when the candidates were found [m]
+  std::vector<VectorSum> force;      ///< on each part in the last step, of all ranks [N]
+  EnergySum work; ///< on the particles by the motion of the wall, of all ranks [J]
+
+  Vec3 resultant() const; ///< of the forces on all parts [N]
+};
+
+RigidWall make_rigid_wall(RigidShape shape, const Vec3& x, const LinearMaterial& material);
+
+/// The point of the wall that is closest to the centre of the particle.
+/// @throws NumericalError for a centre inside the wall
+SurfacePoint closest_point(const RigidWall& wall, const ParticleState& b);
+
+/// Find the candidates: particles whose gap to the wall is below (g_a + skin) S. They hold
+/// until a particle or the wall has moved by half of skin S.
+/// @throws NumericalError naming a particle whose centre is inside the wall
+void rebuild_wall(RigidWall& wall, const PairMaterials& material, const Particles& p,
+                  double skin);
+
+/// Motion of the wall since the candidates were found [m].
+double travel(const RigidWall& wall);
+
+/// Add the contact forces to p.load and set wall.force over the step dt [s] that ends now.
+/// @throws NumericalError naming a particle whose centre is inside the wall
+void add_wall_forces(RigidWall& wall, const PairMaterials& material, double dt,
+                     Particles& p, PairLosses& losses);
+
+/// Stored by the contacts of owned particles [J].
+EnergySum stored_energy(const RigidWall& wall);
+
+/// Power on the particles at the present velocity, from the forces of the last step [W].
+double power(const RigidWall& wall);
+
+/// The records that belong to a particle and migrate with it.
+inline auto histories(RigidWall& wall)
+{
+  return std::tie(wall.contacts);
+}
+
+/// Show each exact sum, with its name, to `visit(name, kind, sum)`.
+template <class Wall, class Visit>
+requires std::same_as<std::remove_const_t<Wall>, RigidWall>
+void visit_sums(Wall& wall, Visit&& visit)
+{
+  visit("force", SumKind::forces, wall.force);
+  visit("work", SumKind::total, wall.work);
+}
+
+} // namespace mergel::dem
