@@ -17,8 +17,8 @@ std::size_t uz(int i)
 
 } // namespace
 
-Interface make_interface(const fem::InterfaceMesh& mesh,
-                         const dem::LinearMaterial& material, double collar_height)
+Interface make_interface(const fem::InterfaceMesh& mesh, const dem::ContactLaw& material,
+                         double collar_height)
 {
   std::vector<dem::Vec3> x = mesh.x;
   std::vector<dem::Triangle> triangles = mesh.triangles;

@@ -20,8 +20,8 @@ struct Interface {
 };
 
 /// @param collar_height above the surface z = 0 [m]; 0 for no collar
-Interface make_interface(const fem::InterfaceMesh& mesh,
-                         const dem::LinearMaterial& material, double collar_height);
+Interface make_interface(const fem::InterfaceMesh& mesh, const dem::ContactLaw& material,
+                         double collar_height);
 
 /// Moves the wall of an assembly with a far field, one far-field step per DEM step.
 class Exchange {

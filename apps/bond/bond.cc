@@ -28,7 +28,7 @@ struct BondCase {
   double S = 1.0;            ///< upscaling ratio [-]
   double gap = 0.0;          ///< between the surfaces when bonded [m]
   BondKeys bond;
-  dem::LinearMaterial contact;
+  ContactKeys contact;
   std::string mode = "path";
   std::filesystem::path path;
   dem::RelativeMotion end_motion{unset, unset, unset}; ///< at the end of a named loading
@@ -294,7 +294,7 @@ void load_bond(const JobOptions& options)
 
   const dem::BondLaw law = c.bond.chosen();
   dem::ControlledPair pair(
-      {c.radius, c.radius * c.radius_ratio, c.S, c.gap, {law, c.contact}});
+      {c.radius, c.radius * c.radius_ratio, c.S, c.gap, {law, c.contact.chosen()}});
   Record record(folder.path() / "history.csv");
   record.add(pair);
   for (const dem::RelativeMotion& corner : path) {

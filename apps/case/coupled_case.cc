@@ -42,10 +42,9 @@ void declare_far_field(CaseFile& file, CoupledCase& c)
                   {"frictional", InterfaceBond::frictional}},
               "How particles are held at the far field: elastic bonds, bonds that may "
               "break, contact only.");
-  c.interface = {0.63e9, 2.4, 0.3, 0.0};
-  file.quantity("interface modulus", c.interface.E, "Pa", positive,
+  file.quantity("interface modulus", c.interface_modulus, "Pa", positive,
                 "Effective modulus of the contact of particles with the far field.", "GPa");
-  file.number("interface friction", c.interface.mu, non_negative,
+  file.number("interface friction", c.interface_friction, non_negative,
               "Friction coefficient of that contact.");
   file.former_name("lip", "collar height");
   file.quantity("collar height", c.collar_height, "m", non_negative,
@@ -74,7 +73,7 @@ void declare(CaseFile& file, CoupledCase& c)
 {
   declare(file, static_cast<SpecimenKeys&>(c));
   declare(file, c.bond);
-  declare(file, c.material.contact);
+  declare(file, c.contact);
   declare_far_field(file, c);
   declare_motion(file, c);
 }
@@ -83,7 +82,7 @@ void complete(CaseFile& file, CoupledCase& c)
 {
   dem::SpecimenSpec& s = c.specimen;
   fem::FarFieldSpec& f = c.far_field;
-  c.material.bond = c.bond.chosen();
+  c.material = {c.bond.chosen(), c.contact.chosen()};
   if (c.shape != SpecimenKeys::Shape::half_cylinder)
     file.refuse("Specimen", "shape",
                 "the far field takes a half cylinder only: use `half cylinder`");
@@ -108,7 +107,7 @@ void complete(CaseFile& file, CoupledCase& c)
   f.rho = s.rho * (1.0 - s.porosity);
   f.gravity = c.gravity;
   f.damping = c.damping;
-  c.interface.kappa = c.material.contact.kappa;
+  c.interface = wall_contact(c.material.contact, c.interface_modulus, c.interface_friction);
   try {
     f.check();
   } catch (const std::invalid_argument& e) {

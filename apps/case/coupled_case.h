@@ -26,12 +26,15 @@ enum class InterfaceBond {
 /// The DEM region is a half cylinder inside the far field (coupling/README.md, Interface).
 struct CoupledCase : SpecimenKeys {
   BondKeys bond;
-  dem::PairMaterials material; ///< its bond is set by complete()
+  ContactKeys contact;
+  dem::PairMaterials material; ///< set by complete()
 
   // Far field
   FarFieldModel model = FarFieldModel::elastic;
   fem::FarFieldSpec far_field;
-  dem::LinearMaterial interface;
+  double interface_modulus = 0.63e9; ///< [Pa]
+  double interface_friction = 0.3;   ///< [-]
+  dem::ContactLaw interface;         ///< set by complete()
   InterfaceBond interface_bond = InterfaceBond::bonded;
   double collar_height = 2e-3; ///< [m]
 

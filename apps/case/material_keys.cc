@@ -1,10 +1,10 @@
 #include "apps/case/material_keys.h"
 
+#include "dem/text.h"
+
 namespace mergel::apps {
 
-namespace {
-
-void declare(CaseFile& file, dem::DamageBond& b)
+void declare_law(CaseFile& file, dem::DamageBond& b)
 {
   b.sigma_t = b.sigma_c = b.C = b.u_c = b.theta_c = unset;
   file.quantity("tensile strength", b.sigma_t, "Pa", positive, "sigma_t, Eq. 6.", "MPa");
@@ -28,7 +28,7 @@ void declare(CaseFile& file, dem::DamageBond& b)
               "Whether bonds resist twisting about their normal; the paper's do not.");
 }
 
-void declare(CaseFile& file, dem::ParallelBond& b)
+void declare_law(CaseFile& file, dem::ParallelBond& b)
 {
   b.sigma_c = b.tau_c = unset;
   file.quantity("tensile strength", b.sigma_c, "Pa", positive,
@@ -38,47 +38,8 @@ void declare(CaseFile& file, dem::ParallelBond& b)
                 "Of the cement, compared with the largest shear over the section.", "MPa");
 }
 
-} // namespace
-
-dem::BondLaw BondKeys::chosen() const
+void declare_law(CaseFile& file, dem::LinearMaterial& contact)
 {
-  const auto with_section = [&](auto bond) -> dem::BondLaw {
-    const dem::Twist twist = bond.twist;
-    static_cast<dem::BondSection&>(bond) = section;
-    bond.twist = twist;
-    return bond;
-  };
-  return law == Law::damage ? with_section(damage) : with_section(parallel);
-}
-
-void declare(CaseFile& file, BondKeys& b)
-{
-  const auto section = file.section("Bond");
-  file.choice(
-      "bond law", b.law,
-      std::vector<std::pair<std::string, BondKeys::Law>>{
-          {dem::DamageBond::name, BondKeys::Law::damage},
-          {dem::ParallelBond::name, BondKeys::Law::parallel}},
-      "Damage-plasticity bond of the paper, or the elastic-brittle parallel bond of "
-      "Potyondy and Cundall (2004).");
-  b.section.E = b.section.kappa = unset;
-  file.quantity("effective modulus", b.section.E, "Pa", positive,
-                "Modulus of the bond, Eq. 4.", "GPa");
-  file.number("stiffness ratio", b.section.kappa, positive,
-              "Normal to shear stiffness, Eq. 4.");
-  file.number("radius ratio", b.section.lambda_b, above_to(0.0, 1.0),
-              "Bond radius over the smaller particle radius.");
-  {
-    const auto only = file.only_if("bond law", {dem::DamageBond::name});
-    declare(file, b.damage);
-  }
-  const auto only = file.only_if("bond law", {dem::ParallelBond::name});
-  declare(file, b.parallel);
-}
-
-void declare(CaseFile& file, dem::LinearMaterial& contact)
-{
-  const auto section = file.section("Contact");
   contact.E = contact.kappa = contact.mu = contact.g_a = unset;
   file.quantity("effective modulus", contact.E, "Pa", positive,
                 "Modulus of the far-field contact between particles.", "GPa");
@@ -88,6 +49,82 @@ void declare(CaseFile& file, dem::LinearMaterial& contact)
   file.quantity("activation gap", contact.g_a, "m", non_negative,
                 "Gap below which the contact acts, g_a at S = 1; scales with S, Eq. 8.",
                 "mm");
+}
+
+void declare_law(CaseFile& file, dem::HertzMaterial& contact)
+{
+  contact.E = contact.nu = contact.mu = unset;
+  file.quantity("Young's modulus", contact.E, "Pa", positive, "E of the grains.", "GPa");
+  file.number("Poisson ratio", contact.nu, between(0.0, 0.5).named("nu"),
+              "nu of the grains.");
+  file.number("friction", contact.mu, non_negative,
+              "Friction coefficient between particles.");
+}
+
+dem::BondLaw BondKeys::chosen() const
+{
+  return law.chosen([this](auto& bond) {
+    const dem::Twist twist = bond.twist;
+    static_cast<dem::BondSection&>(bond) = section;
+    bond.twist = twist;
+  });
+}
+
+void declare(CaseFile& file, BondKeys& b)
+{
+  const auto section = file.section("Bond");
+  declare_choice(
+      file, "bond law", b.law,
+      "Damage-plasticity bond of the paper, or the elastic-brittle parallel bond "
+      "of Potyondy and Cundall (2004).");
+  b.section.E = b.section.kappa = unset;
+  file.quantity("effective modulus", b.section.E, "Pa", positive,
+                "Modulus of the bond, Eq. 4.", "GPa");
+  file.number("stiffness ratio", b.section.kappa, positive,
+              "Normal to shear stiffness, Eq. 4.");
+  file.number("radius ratio", b.section.lambda_b, above_to(0.0, 1.0),
+              "Bond radius over the smaller particle radius.");
+  declare_laws(file, "bond law", b.law);
+}
+
+void declare(CaseFile& file, ContactKeys& contact)
+{
+  const auto section = file.section("Contact");
+  declare_choice(file, "contact law", contact,
+                 "Linear far-field contact of the paper, or the contact of elastic spheres "
+                 "by Hertz and Mindlin.");
+  declare_laws(file, "contact law", contact);
+}
+
+dem::ContactLaw wall_contact(const dem::ContactLaw& particles, double E, double mu)
+{
+  return dem::without_gap(dem::with_friction(dem::with_modulus(particles, E), mu));
+}
+
+namespace {
+
+using Recipe = std::vector<std::pair<std::string, std::string>>;
+
+Recipe recipe_of(const dem::LinearMaterial& c)
+{
+  return {{"contact modulus", dem::shortest(c.E) + " Pa"},
+          {"contact stiffness ratio", dem::shortest(c.kappa)},
+          {"contact friction", dem::shortest(c.mu)}};
+}
+
+Recipe recipe_of(const dem::HertzMaterial& c)
+{
+  return {{"contact law", dem::HertzMaterial::name},
+          {"contact modulus", dem::shortest(c.E) + " Pa"},
+          {"contact Poisson ratio", dem::shortest(c.nu)},
+          {"contact friction", dem::shortest(c.mu)}};
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, std::string>> recipe(const dem::ContactLaw& contact)
+{
+  return std::visit([](const auto& law) { return recipe_of(law); }, contact);
 }
 
 } // namespace mergel::apps

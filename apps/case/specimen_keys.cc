@@ -239,7 +239,7 @@ void declare(CaseFile& file, SpecimenKeys& k)
   declare(file, k.strengths);
 }
 
-void complete(CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& contact)
+void complete(CaseFile& file, SpecimenKeys& k, const dem::ContactLaw& contact)
 {
   dem::SpecimenSpec& s = k.specimen;
   s.contact = contact;
@@ -337,7 +337,7 @@ std::vector<std::pair<std::string, std::string>> recipe(const SpecimenKeys& k)
                      {"porosity", text(s.porosity)},
                      {"coordination", text(s.coordination)},
                      {"bond gap", length(s.g_b)},
-                     {"activation gap", length(s.contact.g_a)},
+                     {"activation gap", length(dem::activation_gap(s.contact))},
                      {"inner upscaling", text(s.scale.S_inner)},
                      {"outer upscaling", text(s.scale.S_outer)},
                      {"inner radius", length(s.scale.r_inner)},
@@ -349,10 +349,8 @@ std::vector<std::pair<std::string, std::string>> recipe(const SpecimenKeys& k)
       r.emplace_back("target pressure", text(s.pressure) + " Pa");
     else
       r.emplace_back("generation friction", text(s.friction));
-    r.insert(r.end(), {{"contact modulus", text(s.contact.E) + " Pa"},
-                       {"contact stiffness ratio", text(s.contact.kappa)},
-                       {"contact friction", text(s.contact.mu)},
-                       {"free rotation", s.free_rotation ? "true" : "false"}});
+    for (auto& line : recipe(s.contact)) r.push_back(std::move(line));
+    r.emplace_back("free rotation", s.free_rotation ? "true" : "false");
   }
   r.emplace_back("seed", std::to_string(s.seed));
   return r;

@@ -47,7 +47,7 @@ void declare(CaseFile& file, SpecimenKeys& k);
 /// half cylinder gets two faces here, enough for the checks; make_far_field() sets their
 /// number.
 /// @throws InputError naming file, line and key
-void complete(CaseFile& file, SpecimenKeys& k, const dem::LinearMaterial& contact);
+void complete(CaseFile& file, SpecimenKeys& k, const dem::ContactLaw& contact);
 
 /// Key and value of everything that determines a specimen, in a fixed order.
 std::vector<std::pair<std::string, std::string>> recipe(const SpecimenKeys& k);

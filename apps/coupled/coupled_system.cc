@@ -38,7 +38,10 @@ std::vector<double> interface_springs(const dem::Assembly& assembly,
     const double R = radius(wall.contacts[k].particle);
     for (const auto& near : wall.listed[k].near)
       add(near.triangle, dem::Vec3::Ones(),
-          dem::linear_stiffness(wall.material, R, 1.0 / R).k_n);
+          dem::contact_stiffness(
+              wall.material, dem::sides_at_wall(R),
+              std::max(wall.contacts[k].overlap, dem::estimated_overlap * R))
+              .k_n);
   }
   dem::ExactReduction all;
   for (dem::ForceSum& s : sums) all.add(s);
@@ -71,8 +74,9 @@ CoupledSystem::CoupledSystem(const CoupledCase& c, fem::FarField field,
 {
   assembly.material = c.material;
   assembly.motion = {dem::Vec3(0.0, 0.0, -c.gravity), c.damping, c.free_rotation};
-  assembly.list = dem::VerletList(c.material.contact.g_a, dem::skin_under_penetration *
-                                                              c.specimen.sizes.smallest());
+  assembly.list =
+      dem::VerletList(dem::activation_gap(assembly.material.contact),
+                      dem::skin_under_penetration * c.specimen.sizes.smallest());
   assembly.mirrors.emplace_back();
   assembly.walls.push_back(std::move(interface.wall));
   assembly.walls.back().bonds_yield = c.interface_bond == InterfaceBond::breakable;

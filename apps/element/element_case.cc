@@ -88,7 +88,8 @@ void declare_analysis(CaseFile& file, ElementCase& c)
 void check_size(const CaseFile& file, const ElementCase& c)
 {
   const dem::Grading& sizes = c.specimen.specimen.sizes;
-  const double range = c.contact.g_a + dem::default_skin * sizes.smallest();
+  const double range =
+      dem::activation_gap(c.contact.chosen()) + dem::default_skin * sizes.smallest();
   const double smallest = dem::smallest_edge(sizes.largest(), range, c.specimen.S);
   const double edge = c.specimen.edges.minCoeff();
   // A confined cell is a little smaller, and the limit is checked only at the records.
@@ -165,7 +166,7 @@ void complete(CaseFile& file, ElementCase& c)
   if (c.specimen.shape != SpecimenKeys::Shape::periodic_box)
     file.refuse("Specimen", "shape", "an element test needs a `periodic box`");
   c.specimen.specimen.free_rotation = c.free_rotation;
-  complete(file, c.specimen, c.contact);
+  complete(file, c.specimen, c.contact.chosen());
   check_size(file, c);
   if (c.secant_to <= c.secant_from)
     file.refuse("Analysis", "secant to", "must be beyond `secant from`");
@@ -209,7 +210,7 @@ double specimen_width(const ElementCase& c, const dem::PeriodicSpecimen& specime
 dem::PairMaterials resolved_materials(const ElementCase& c,
                                       const dem::PeriodicSpecimen& specimen)
 {
-  dem::PairMaterials m{c.bond.chosen(), c.contact};
+  dem::PairMaterials m{c.bond.chosen(), c.contact.chosen()};
   const double factor = c.size_effect.factor(specimen_width(c, specimen));
   std::visit([&](auto& bond) { bond = with_strengths_times(factor, bond); }, m.bond);
   return m;
@@ -237,11 +238,11 @@ std::string report(const ElementCase& c, const dem::PeriodicSpecimen& specimen,
   if (range.S_max > range.S_min) out << " to " << range.S_max;
   if (const auto* b = std::get_if<dem::DamageBond>(&materials.bond)) {
     scaled("u_c", b->u_c);
-    scaled("g_a", materials.contact.g_a);
+    scaled("g_a", dem::activation_gap(materials.contact));
     out << " (Eq. 8); sigma_t " << 1e-6 * b->sigma_t << ", sigma_c " << 1e-6 * b->sigma_c
         << ", C " << 1e-6 * b->C << " MPa";
   } else if (const auto* b = std::get_if<dem::ParallelBond>(&materials.bond)) {
-    scaled("g_a", materials.contact.g_a);
+    scaled("g_a", dem::activation_gap(materials.contact));
     out << " (Eq. 8); tensile " << 1e-6 * b->sigma_c << ", shear strength "
         << 1e-6 * b->tau_c << " MPa";
   }

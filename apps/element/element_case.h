@@ -24,7 +24,7 @@ struct SizeEffectKeys {
 struct ElementCase : dem::ElementControl {
   SpecimenKeys specimen; ///< of a periodic box
   BondKeys bond;
-  dem::LinearMaterial contact;
+  ContactKeys contact;
   SizeEffectKeys size_effect;
 
   // Loading

@@ -31,10 +31,8 @@ void declare(CaseFile& file, PileCase& c)
                   "Downwards, after a ramp of 0.05 diameters.");
     file.quantity("final depth", c.final_depth, "m", positive,
                   "Of the shoulder below the surface.", "mm");
-    c.contact.mu = unset;
-    file.number("friction", c.contact.mu, non_negative, "Between pile and particles.");
-    c.contact.E = 1.26e9;
-    file.quantity("contact modulus", c.contact.E, "Pa", positive,
+    file.number("friction", c.friction, non_negative, "Between pile and particles.");
+    file.quantity("contact modulus", c.contact_modulus, "Pa", positive,
                   "Effective modulus of the contact between pile and particles.", "GPa");
   }
   const auto section = file.section("Output");
@@ -63,7 +61,7 @@ void complete(CaseFile& file, PileCase& c)
                     ", less than a diameter above the floor of the DEM region at " +
                     mm(c.assembly.height) + "; lower it or raise `Specimen/height`");
   complete(file, c.checkpoints);
-  c.contact.kappa = c.assembly.material.contact.kappa;
+  c.contact = wall_contact(c.assembly.material.contact, c.contact_modulus, c.friction);
 }
 
 } // namespace mergel::apps

@@ -19,7 +19,7 @@ namespace {
 /// A case with a specimen only.
 struct SampleCase {
   SpecimenKeys specimen;
-  dem::LinearMaterial contact;
+  ContactKeys contact;
 };
 
 void declare(CaseFile& file, SampleCase& c)
@@ -139,7 +139,7 @@ int run_sample(const JobOptions& options)
   on_every_rank([&] {
     read_case(file, options, std::nullopt);
     refuse_sample(file, c.specimen);
-    complete(file, c.specimen, c.contact);
+    complete(file, c.specimen, c.contact.chosen());
   });
   require_same_case(file);
   const auto inputs = inputs_of(options, std::nullopt, {c.specimen.table});

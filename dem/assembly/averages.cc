@@ -182,8 +182,12 @@ Vec3 affine_stiffness(const Assembly& assembly)
   };
   const auto add_contact = [&](const Pair& q) {
     const Branch b(assembly, q);
-    if (b.r.norm() - b.L >= assembly.material.contact.g_a * b.S) return;
-    const auto k = linear_stiffness(assembly.material.contact, b.radius, 1.0 / b.L);
+    const ContactLaw& law = assembly.material.contact;
+    const double overlap = activation_gap(law) * b.S - (b.r.norm() - b.L);
+    if (overlap <= 0.0) return;
+    const ParticleState &i = assembly.particles.state[q.i],
+                        &j = assembly.particles.state[q.j];
+    const auto k = contact_stiffness(law, sides_of_pair(i.R, j.R, 1.0 / b.L), overlap);
     add_spring(b, k.k_n, k.k_s);
   };
   for (std::size_t b = 0; b < assembly.bonds.size(); ++b) {

@@ -29,8 +29,10 @@ void add_pair(StiffnessSums& s, const PairMaterials& material, const PeriodicCel
     k_s += b.k_s;
     k_b += b.k_b;
   }
-  if (gap < material.contact.g_a * 0.5 * (i.S + j.S)) {
-    const auto c = linear_stiffness(material.contact, r, 1.0 / L);
+  const double g_a = activation_gap(material.contact) * 0.5 * (i.S + j.S);
+  if (gap < g_a) {
+    const auto c =
+        contact_stiffness(material.contact, sides_of_pair(i.R, j.R, 1.0 / L), g_a - gap);
     k_n += c.k_n;
     k_s += c.k_s;
   }
@@ -54,13 +56,13 @@ StiffnessSums stiffness_sums(const PairMaterials& material, const PeriodicCell& 
 
 namespace {
 
-void add_contacts(StiffnessSums& s, const LinearMaterial& material,
+void add_contacts(StiffnessSums& s, const ContactLaw& law,
                   const std::vector<WallContact>& contacts, const Particles& p)
 {
   for (const WallContact& c : contacts) {
     if (c.energy == 0.0) continue;
     const double R = p.state[c.particle].R;
-    const auto k = linear_stiffness(material, R, 1.0 / R);
+    const auto k = contact_stiffness(law, sides_at_wall(R), c.overlap);
     add_spring(s, c.particle, k.k_n, k.k_s, R, 0.0);
   }
 }
@@ -94,8 +96,10 @@ void add_wall_stiffness(StiffnessSums& s, const Mirror& mirror,
     // A particle and its image are a pair of equal masses.
     if (m.bond.intact > 0.0)
       s.k[m.particle] += bond_shape(section(material.bond), b.R, 0.5 / b.R).k_n;
-    if (gap < material.contact.g_a * b.S)
-      s.k[m.particle] += linear_stiffness(material.contact, b.R, 0.5 / b.R).k_n;
+    const double overlap = activation_gap(material.contact) * b.S - gap;
+    if (overlap > 0.0)
+      s.k[m.particle] +=
+          contact_stiffness(material.contact, sides_at_mirror(b.R), overlap).k_n;
   }
 }
 

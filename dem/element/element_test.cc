@@ -69,7 +69,7 @@ ElementTest::ElementTest(const ElementControl& c, PeriodicSpecimen specimen,
   }
   state_.mean_diameter = dV / V;
   state_.density = m / V;
-  r.list = VerletList(materials.contact.g_a, list_skin(r.particles));
+  r.list = VerletList(activation_gap(materials.contact), list_skin(r.particles));
   r.bonds = make_bonds(r.particles, r.cell, std::move(specimen.bonded));
   distribute(r, comm);
   add_forces(r, 0.0);
@@ -90,7 +90,7 @@ ElementTest::ElementTest(const ElementControl& c, ElementState state, MPI_Comm c
   Assembly& r = state_.assembly;
   r.motion.damping = c.damping;
   r.motion.free_rotation = c.free_rotation;
-  r.list = VerletList(r.material.contact.g_a, list_skin(r.particles));
+  r.list = VerletList(activation_gap(r.material.contact), list_skin(r.particles));
   distribute(r, comm);
   rebuild_lists(r);
 }

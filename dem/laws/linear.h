@@ -10,12 +10,14 @@
 /// Far-field contact.
 #pragma once
 
-#include "dem/error.h"
-#include "dem/particles/kinematics.h"
+#include "dem/laws/contact_sides.h"
+#include "dem/notation.h"
 
 namespace mergel::dem {
 
 struct LinearMaterial {
+  static constexpr const char* name = "linear"; ///< name in case files and summaries
+
   double E = 0.0;     ///< effective modulus [Pa], > 0
   double kappa = 1.0; ///< normal-to-shear stiffness ratio [-], > 0
   double mu = 0.0;    ///< friction coefficient [-], >= 0
@@ -31,44 +33,61 @@ struct LinearMaterial {
   }
 };
 
-/// Stiffnesses [N/m] of one contact.
-template <class Real>
-struct LinearStiffness {
-  Real k_n, k_s;
-};
-
-/// @param r smaller radius [m]; @param inv_L one over the sum of radii [1/m]
-template <class Real>
-LinearStiffness<Real> linear_stiffness(const LinearMaterial& c, const Real& r,
-                                       const Real& inv_L)
+/// Gap below which a contact acts, at S = 1 [m].
+inline double activation_gap(const LinearMaterial& c)
 {
-  const Real k_n = c.E * pi * r * r * inv_L;
+  return c.g_a;
+}
+
+/// The same for every overlap.
+template <class Real>
+[[gnu::always_inline]] inline ContactStiffness<Real>
+contact_stiffness(const LinearMaterial& c, const ContactSides<Real>& s, const Real&)
+{
+  const Real k_n = c.E * pi * s.r * s.r * s.inv_L;
   return {k_n, k_n * (1.0 / c.kappa)};
 }
 
-/// Result of one step of a contact.
-template <class Real>
-struct LinearContact {
-  Real f_n;         ///< compression [N], >= 0
-  Triple<Real> f_s; ///< shear force on i, the new history [N]
-  Real slip_loss;   ///< energy lost to sliding in this step [J], >= 0
-};
+/// Normal force under an overlap g_a S - gap > 0 [N].
+inline double normal_force(const LinearMaterial& c, const ContactSides<double>& s,
+                           double overlap)
+{
+  return contact_stiffness(c, s, overlap).k_n * overlap;
+}
 
-/// @param f_s_old shear force of the last step, rotated with the contact frame [N]
-/// @param g_a     activation gap of this pair [m]
+/// Stored by a contact of this overlap > 0 and shear force [J].
+inline double contact_energy(const LinearMaterial& c, const ContactSides<double>& s,
+                             double overlap, double f_s_squared)
+{
+  const auto k = contact_stiffness(c, s, overlap);
+  return 0.5 * (k.k_n * overlap * overlap + f_s_squared / k.k_s);
+}
+
+/// The same from the normal force f_n > 0, which a wall contact keeps.
+inline double contact_energy_of_force(const LinearMaterial& c,
+                                      const ContactSides<double>& s, double f_n,
+                                      double f_s_squared)
+{
+  const auto k = contact_stiffness(c, s, 0.0);
+  return 0.5 * (f_n * f_n / k.k_n + f_s_squared / k.k_s);
+}
+
+/// @param S upscaling ratio of the pair [-]
 ///
 /// Where the contact slips, the loss is the work of the shear force (trapezoidal rule) less
 /// the growth of the stored energy, (1-s)/(2 k_s) (f_old.f* + s f*^2) with s = mu f_n/|f*|.
 /// A contact that opens loses the energy of its shear spring.
 template <class Real>
-[[gnu::always_inline]] inline LinearContact<Real>
-linear_contact(const LinearMaterial& c, const LinearStiffness<Real>& k, const Real& gap,
-               const Real& g_a, const Triple<Real>& du_s, const Triple<Real>& f_s_old)
+[[gnu::always_inline]] inline ContactStep<Real>
+contact_step(const LinearMaterial& c, const ContactSides<Real>& sides, const Real& S,
+             const ContactMotion<Real>& by)
 {
-  const auto active = gap < g_a;
-  LinearContact<Real> out;
-  out.f_n = select(active, k.k_n * (g_a - gap), Real{});
-  out.f_s = f_s_old + du_s * k.k_s;
+  const auto k = contact_stiffness(c, sides, by.gap);
+  const Real g_a = c.g_a * S;
+  const auto active = by.gap < g_a;
+  ContactStep<Real> out;
+  out.f_n = select(active, k.k_n * (g_a - by.gap), Real{});
+  out.f_s = by.f_s_old + by.du_s * k.k_s;
   out.slip_loss = Real{};
 
   const Real f_max = c.mu * out.f_n;
@@ -76,8 +95,8 @@ linear_contact(const LinearMaterial& c, const LinearStiffness<Real>& k, const Re
   const auto slides = trial2 > f_max * f_max; // an open contact has f_max = 0
   if (any(slides)) {
     const Real s = f_max / sqrt(select(slides, trial2, Real{} + 1.0));
-    const Real loss = (1.0 - s) * 0.5 / k.k_s * (dot(f_s_old, out.f_s) + s * trial2);
-    const Real stored = dot(f_s_old, f_s_old) * 0.5 / k.k_s;
+    const Real loss = (1.0 - s) * 0.5 / k.k_s * (dot(by.f_s_old, out.f_s) + s * trial2);
+    const Real stored = dot(by.f_s_old, by.f_s_old) * 0.5 / k.k_s;
     out.slip_loss = select(slides, select(active, loss, stored), Real{});
     out.f_s = select(slides, out.f_s * s, out.f_s);
   }

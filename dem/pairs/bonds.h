@@ -2,7 +2,6 @@
 #pragma once
 
 #include "dem/laws/bond_law.h"
-#include "dem/laws/linear.h"
 #include "dem/pairs/pairs.h"
 #include "dem/particles/particles.h"
 

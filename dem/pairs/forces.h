@@ -1,11 +1,12 @@
 /// Forces between particles: one kernel for all pairs, bonded or not.
 #pragma once
 
+#include "dem/laws/bond_step.h"
+#include "dem/laws/contact_law.h"
 #include "dem/math/exact_sum.h"
 #include "dem/pairs/bonds.h"
 #include "dem/pairs/contacts.h"
 
-#include <array>
 #include <concepts>
 
 namespace mergel::dem {
@@ -19,14 +20,9 @@ struct Breakage {
 
 /// Energy lost by pairs and walls, and number of broken bonds. A pair counts on the rank
 /// that owns its first particle.
-struct PairLosses {
-  EnergySum slip;             ///< friction [J]
-  EnergySum plastic;          ///< plasticity and damage of bonds [J]
-  EnergySum breakage_release; ///< energy released at bond breakage [J]
-  std::size_t broken = 0;
-  std::size_t yielded = 0;         ///< yielding bonds, summed over all steps
+struct PairLosses : BondLosses {
+  EnergySum slip;                  ///< friction [J]
   std::vector<Breakage> breakages; ///< of bonds between particles, not sorted
-  std::array<std::size_t, n_break_modes> broken_by{}; ///< breakages by mode
   /// In a strain-controlled cell, diagonal of sum F (x) r of the last step [J]: volume
   /// times stress, tension positive.
   ExactVector<EnergySum> virial;
@@ -45,7 +41,7 @@ void visit_sums(Losses& losses, Visit&& visit)
 /// The materials of a pair: of its bond and of its far-field contact.
 struct PairMaterials {
   BondLaw bond;
-  LinearMaterial contact;
+  ContactLaw contact;
 };
 
 /// Add force and torque of all bonded pairs, or of all other contacts, to p.load, in
@@ -53,7 +49,7 @@ struct PairMaterials {
 /// that breaks lowers n_bonds of both particles.
 void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, double dt,
                      Particles& p, Bonds& bonds, PairLosses& losses);
-void add_contact_forces(const LinearMaterial& contact, const PeriodicCell& cell, double dt,
+void add_contact_forces(const ContactLaw& contact, const PeriodicCell& cell, double dt,
                         Particles& p, Contacts& contacts, PairLosses& losses);
 
 /// One far-field contact, for output and the energy balance.
@@ -64,7 +60,7 @@ struct ContactReading {
 
 /// @param f_s shear force of the contact [N]
 ContactReading read_contact(const Pair& pair, const Vec3& f_s, const Particles& p,
-                            const PeriodicCell& cell, const LinearMaterial& material);
+                            const PeriodicCell& cell, const ContactLaw& law);
 
 /// Shear force of the contact of a bonded pair, on i [N].
 Vec3 contact_shear_of(const Bonds& bonds, std::size_t b);

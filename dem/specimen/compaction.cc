@@ -15,11 +15,10 @@ namespace {
 
 constexpr double at_rest = 1e-3; // unbalanced-force ratio
 
-double wall_pressure_term(const LinearMaterial& m, const ParticleState& b, double gap)
+double wall_pressure_term(const ContactLaw& m, const ParticleState& b, double gap)
 {
-  const double g_a = m.g_a * b.S;
-  if (gap >= g_a) return 0.0;
-  return linear_stiffness(m, b.R, 1.0 / b.R).k_n * (g_a - gap) * (b.R + gap);
+  const double overlap = activation_gap(m) * b.S - gap;
+  return overlap > 0.0 ? normal_force(m, sides_at_wall(b.R), overlap) * (b.R + gap) : 0.0;
 }
 
 /// Assembly of the particles and their boundaries.
@@ -28,17 +27,14 @@ Assembly make_assembly(const SpecimenSpec& s, const Packing& packing, double fri
   Assembly assembly;
   assembly.particles = packing.particles;
   assembly.cell = packing.cell;
-  assembly.material.contact = s.contact;
-  assembly.material.contact.mu = friction;
+  assembly.material.contact = with_friction(s.contact, friction);
   assembly.motion.free_rotation = s.free_rotation;
   const double d00 = s.sizes.smallest();
-  assembly.list = VerletList(s.contact.g_a + growth_reserve * d00, default_skin * d00);
+  assembly.list =
+      VerletList(activation_gap(s.contact) + growth_reserve * d00, default_skin * d00);
   for (const Face& face : solid_faces(s.region)) {
-    LinearMaterial smooth = s.contact;
-    smooth.mu = 0.0;
-    smooth.g_a = 0.0;
-    assembly.rigid_walls.push_back(
-        make_rigid_wall(Plane{face.inwards}, face.point, smooth));
+    assembly.rigid_walls.push_back(make_rigid_wall(
+        Plane{face.inwards}, face.point, without_gap(with_friction(s.contact, 0.0))));
   }
   if (std::holds_alternative<HalfCylinder>(s.region)) assembly.mirrors.emplace_back();
   return assembly;
@@ -50,8 +46,9 @@ double dense_time_step(const Assembly& assembly)
 {
   double smallest = std::numeric_limits<double>::infinity();
   for (const ParticleState& b : assembly.particles.state) {
-    const double k_n =
-        linear_stiffness(assembly.material.contact, b.R, 0.5 / b.R).k_n; // > 0
+    const double k_n = contact_stiffness(assembly.material.contact, sides_at_mirror(b.R),
+                                         estimated_overlap * b.R)
+                           .k_n; // > 0
     smallest = std::min(smallest, std::sqrt(2.0 * b.m / (12.0 * k_n)));
   }
   return default_safety * smallest / std::sqrt(1.0 + assembly.motion.damping);
@@ -66,7 +63,7 @@ public:
       : spec_(s), full_(packing.particles.state),
         assembly_(make_assembly(s, packing, friction)), volume_(volume(s.region)),
         growth_allowed_(growth_reserve * s.sizes.smallest() /
-                        (s.sizes.largest() + s.contact.g_a))
+                        (s.sizes.largest() + activation_gap(s.contact)))
   {
     resize(share);
     if (comm != MPI_COMM_NULL) distribute(assembly_, comm);
@@ -85,7 +82,10 @@ public:
       dt_ = std::min(dt_, stable_time_step(assembly_, default_safety));
   }
 
-  void set_friction(double mu) { assembly_.material.contact.mu = mu; }
+  void set_friction(double mu)
+  {
+    assembly_.material.contact = with_friction(assembly_.material.contact, mu);
+  }
   double pressure() const { return mean_pressure(assembly_, volume_); }
   double unbalanced() const { return unbalanced_ratio(assembly_); }
   std::size_t n_steps() const { return n_steps_; }
@@ -141,7 +141,7 @@ private:
     for (const Pair& q : assembly_.contacts.pairs) {
       const ParticleState &i = assembly_.particles.state[q.i],
                           &j = assembly_.particles.state[q.j];
-      const double reach = i.R + j.R + 0.5 * spec_.contact.g_a * (i.S + j.S);
+      const double reach = i.R + j.R + 0.5 * activation_gap(spec_.contact) * (i.S + j.S);
       const double d = (j.x + assembly_.cell.offset(q.shift) - i.x).norm();
       most = std::max(most, (reach - d) / reach);
     }
@@ -162,7 +162,7 @@ double mean_pressure(const Assembly& assembly, double volume)
 {
   const Particles& p = assembly.particles;
   MomentSum sum; // [N m]
-  const LinearMaterial& contact = assembly.material.contact;
+  const ContactLaw& contact = assembly.material.contact;
   const auto add = [&](const Pair& q) {
     if (!p.owns(q.i)) return;
     const double f_n = read_contact(q, Vec3::Zero(), p, assembly.cell, contact).f_n;
@@ -180,9 +180,9 @@ double mean_pressure(const Assembly& assembly, double volume)
   for (const Mirror& m : assembly.mirrors)
     for (const MirrorPair& pair : m.pairs) {
       const ParticleState& b = p.state[pair.particle];
-      const double gap = 2.0 * (b.x.y() - b.R), g_a = contact.g_a * b.S;
-      if (gap < g_a) // half of the pair's length lies in the region
-        sum.add(linear_stiffness(contact, b.R, 0.5 / b.R).k_n * (g_a - gap) * b.x.y());
+      const double overlap = activation_gap(contact) * b.S - 2.0 * (b.x.y() - b.R);
+      if (overlap > 0.0) // half of the pair's length lies in the region
+        sum.add(normal_force(contact, sides_at_mirror(b.R), overlap) * b.x.y());
     }
   ExactReduction all;
   all.add(sum);
@@ -239,7 +239,7 @@ Packing jam(const SpecimenSpec& s, const Packing& cloud, double friction, MPI_Co
   for (int k = 0; k < steps_of_growth; ++k) settling.step(factor);
   for (int k = 0; k < steps_of_flow; ++k) settling.step();
 
-  settling.set_friction(s.contact.mu);
+  settling.set_friction(dem::friction(s.contact));
   PressureHold hold(settling, s.pressure);
   int n_met = 0;
   for (int k = 0;; ++k) {
@@ -288,12 +288,13 @@ void confine(const SpecimenSpec& s, Packing& packing, MPI_Comm comm,
     return error;
   };
 
-  double low = 0.0, high = s.contact.mu; // friction; porosity grows with it
+  double low = 0.0, high = dem::friction(s.contact); // friction; porosity grows with it
   const double usual = std::min(0.025, 0.5 * high);
   const bool is_loose = error_with(usual) > 0.0;
   if (smallest <= good) return;
   (is_loose ? high : low) = usual;
-  const bool has_range = s.contact.mu > 0.0; // else they jam at one porosity only
+  const bool has_range =
+      dem::friction(s.contact) > 0.0; // else they jam at one porosity only
   const bool is_within = has_range && (error_with(is_loose ? low : high) > 0.0) != is_loose;
   while (is_within && smallest > good && n_tries < max_trials) {
     const double middle = 0.5 * (low + high);
@@ -306,9 +307,9 @@ void confine(const SpecimenSpec& s, Packing& packing, MPI_Comm comm,
   text << "cannot be reached together with `Specimen/target pressure`: under this pressure "
           "these particles jam at ";
   if (has_range) {
-    error_with(is_loose ? s.contact.mu : 0.0); // the other end of the range
+    error_with(is_loose ? dem::friction(s.contact) : 0.0); // the other end of the range
     text << "porosities between " << n_low << " and " << n_high
-         << ", with a friction of 0 to " << s.contact.mu
+         << ", with a friction of 0 to " << dem::friction(s.contact)
          << " while they are packed; change the porosity or "
          << "`Contact/activation gap`";
   } else {
@@ -331,7 +332,7 @@ void expand(const SpecimenSpec& s, Packing& packing, MPI_Comm comm,
     for (int n = 0; n < steps_between_checks; ++n) settling.step();
     progress(std::min(1.0, k / 20000.0));
     if (settling.unbalanced() < at_rest ||
-        settling.pressure() < no_pressure * s.contact.E) {
+        settling.pressure() < no_pressure * modulus(s.contact)) {
       check_overlaps(settling.assembly());
       packing = settling.finish();
       packing.friction = s.friction;

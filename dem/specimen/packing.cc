@@ -65,7 +65,7 @@ void SpecimenSpec::check() const
   require(compaction != Compaction::confined || pressure > 0.0,
           "the pressure of a confined specimen must be positive");
   require(friction >= 0.0, "friction must not be negative");
-  if (compaction != Compaction::unjammed) contact.check();
+  if (compaction != Compaction::unjammed) dem::check(contact);
 
   const double fraction = effective_solid_fraction(*this);
   const double most =
@@ -96,7 +96,8 @@ double width_needed(const SpecimenSpec& s)
   if (!std::holds_alternative<PeriodicBox>(s.region)) return 2.0 * S * s.sizes.largest();
   const double margin =
       default_skin + (s.compaction == Compaction::unjammed ? 0.0 : growth_reserve);
-  const double range = std::max(s.contact.g_a + margin * s.sizes.smallest(), s.g_b);
+  const double range =
+      std::max(activation_gap(s.contact) + margin * s.sizes.smallest(), s.g_b);
   return smallest_edge(s.sizes.largest(), range, S);
 }
 
@@ -109,7 +110,8 @@ double max_particles(const SpecimenSpec& s)
 
 double effective_solid_fraction(const SpecimenSpec& s)
 {
-  return (1.0 - s.porosity) * s.sizes.mean_cube(s.contact.g_a) / s.sizes.mean_cube();
+  return (1.0 - s.porosity) * s.sizes.mean_cube(activation_gap(s.contact)) /
+         s.sizes.mean_cube();
 }
 
 namespace {
@@ -164,7 +166,7 @@ Particles draw_particles(const SpecimenSpec& s, double target)
 double grow_packing(const SpecimenSpec& s, Particles& p, const Sweeps& sweeps,
                     const std::function<void(double)>& progress)
 {
-  Growth growth(p, s.region, s.contact.g_a, default_skin * s.sizes.smallest());
+  Growth growth(p, s.region, activation_gap(s.contact), default_skin * s.sizes.smallest());
   return grow(growth, sweeps, progress);
 }
 

@@ -2,7 +2,7 @@
 /// confined, the target pressure (dem/README.md, Specimens).
 #pragma once
 
-#include "dem/laws/linear.h"
+#include "dem/laws/contact_law.h"
 #include "dem/particles/particles.h"
 #include "dem/specimen/psd.h"
 #include "dem/specimen/region.h"
@@ -34,9 +34,9 @@ struct SpecimenSpec {
   Region region;
   Grading sizes; ///< at S = 1
   GradedScale scale;
-  double rho = 0.0;       ///< density of the grains [kg/m^3]
-  double porosity = 0.0;  ///< target of the core [-], by sphere volumes; see pack()
-  LinearMaterial contact; ///< far-field contact; all modes pack the shells of its gap g_a
+  double rho = 0.0;      ///< density of the grains [kg/m^3]
+  double porosity = 0.0; ///< target of the core [-], by sphere volumes; see pack()
+  ContactLaw contact;    ///< all modes pack the shells of its activation gap
   Compaction compaction = Compaction::unjammed;
   double pressure = 0.0;      ///< confined: target [Pa], > 0
   double friction = 0.0;      ///< expanded: between particles while they settle [-], >= 0

@@ -138,7 +138,7 @@ std::optional<PatchContact> patch_contact(const Wall& wall,
   double nearest = std::numeric_limits<double>::infinity();
   bool is_inside = true;
   Feature closest{};
-  const double reach = wall.material.g_a * particle.S;
+  const double reach = activation_gap(wall.material) * particle.S;
   // Round-off of the distances is far below a millionth of a radius.
   const double moved = (particle.x - candidate.x).norm() + wall_travel + 1e-6 * particle.R;
   for (const auto& [t, clearance] : candidate.near) {
@@ -236,7 +236,7 @@ void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double s
   std::vector<NearTriangle> hits;
   p.for_owned([&](Index i) {
     const ParticleState& b = p.state[i];
-    const double reach = b.R + (wall.material.g_a + skin) * b.S;
+    const double reach = b.R + (activation_gap(wall.material) + skin) * b.S;
     hits.clear();
     auto ball = std::lower_bound(balls.begin(), balls.end(), b.x.z() - reach - r_max,
                                  [](const BoundingSphere& a, double z) { return a.z < z; });
@@ -255,7 +255,7 @@ void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double s
         found.push_back({i, hit.patch, Vec3::Zero(), 0.0});
         listed.push_back({b.x, {}});
       }
-      const double beyond = b.R + wall.material.g_a * b.S;
+      const double beyond = b.R + activation_gap(wall.material) * b.S;
       listed.back().near.push_back({hit.triangle, std::sqrt(hit.distance2) - beyond});
     }
   });

@@ -39,7 +39,7 @@ void list_pairs(Mirror& mirror, const Particles& p, double reach)
 void rebuild_wall(Mirror& mirror, const PairMaterials& material, const Particles& p,
                   double skin)
 {
-  list_pairs(mirror, p, material.contact.g_a + 2.0 * skin);
+  list_pairs(mirror, p, activation_gap(material.contact) + 2.0 * skin);
 }
 
 void bond_to_mirror(Mirror& mirror, Particles& p, double limit)
@@ -69,16 +69,8 @@ double image_bond_force(const Law& law, double dt, double gap, Particles& p, Mir
   if (!is_elastic(law, shape, q)) {
     EffectiveLoads<double> old = q;
     old.N -= shape.k_n * 2.0 * dt * b.v.y();
-    const BondReturn r = return_bond(law, shape, b.S, m.bond, old, q);
-    q = r.loads;
-    m.bond = r.state;
-    ++losses.yielded;
-    losses.plastic.add(0.5 * r.loss);
-    if (m.bond.intact == 0.0) {
-      losses.breakage_release.add(0.5 * r.breakage_release);
-      ++losses.broken;
+    if (bond_step(law, shape, b.S, old, q, m.bond, &losses, 0.5).breaks)
       --p.n_bonds[m.particle];
-    }
   }
   energy.add(0.5 * m.bond.intact * spring_energy(shape, q));
   return m.bond.intact * q.N;
@@ -108,11 +100,11 @@ void add_wall_forces(Mirror& mirror, const PairMaterials& material, double dt, P
           },
           material.bond);
 
-    const double closed = material.contact.g_a * b.S - gap;
-    if (closed > 0.0) {
-      const double k_n = linear_stiffness(material.contact, b.R, 0.5 / b.R).k_n;
-      pull -= k_n * closed;
-      mirror.energy.add(0.25 * k_n * closed * closed);
+    const double overlap = activation_gap(material.contact) * b.S - gap;
+    if (overlap > 0.0) {
+      const auto sides = sides_at_mirror(b.R);
+      pull -= normal_force(material.contact, sides, overlap);
+      mirror.energy.add(0.5 * contact_energy(material.contact, sides, overlap, 0.0));
     }
     load.f.y() -= pull;
     mirror.force.add({0.0, -pull, 0.0});

@@ -2,7 +2,7 @@
 
 namespace mergel::dem {
 
-RigidWall make_rigid_wall(RigidShape shape, const Vec3& x, const LinearMaterial& material)
+RigidWall make_rigid_wall(RigidShape shape, const Vec3& x, const ContactLaw& material)
 {
   RigidWall wall;
   wall.force.resize(std::visit([](const auto& s) { return s.parts.size(); }, shape));
@@ -28,14 +28,14 @@ SurfacePoint closest_point(const RigidWall& wall, const ParticleState& b)
 void rebuild_wall(RigidWall& wall, const PairMaterials&, const Particles& p, double skin)
 {
   std::vector<WallContact> near;
+  const double reach = activation_gap(wall.material) + skin;
   std::visit(
       [&](const auto& shape) {
         p.for_owned([&](Index i) {
           const ParticleState& b = p.state[i];
           const double gap =
               with_particle_id(p.id[i], [&] { return shape.closest_point(b, wall.x).gap; });
-          if (gap < (wall.material.g_a + skin) * b.S)
-            near.push_back({i, 0, {0, 0, 0}, 0.0});
+          if (gap < reach * b.S) near.push_back({.particle = i});
         });
       },
       wall.shape);
@@ -53,17 +53,17 @@ void add_wall_forces(RigidWall& wall, const PairMaterials&, double dt, Particles
 {
   for (VectorSum& f : wall.force) f.clear();
   std::visit(
-      [&](const auto& shape) {
+      [&](const auto& shape, const auto& law) {
         for (WallContact& c : wall.contacts) {
           ParticleState& particle = p.state[c.particle];
           const SurfacePoint closest = with_particle_id(
               p.id[c.particle], [&] { return shape.closest_point(particle, wall.x); });
-          wall.force[closest.part].add(-add_wall_contact(
-              wall.material, {closest.n, closest.gap, closest.point, wall.v}, dt, particle,
-              p.load[c.particle], c, losses));
+          wall.force[closest.part].add(
+              -add_wall_contact(law, {closest.n, closest.gap, closest.point, wall.v}, dt,
+                                particle, p.load[c.particle], c, losses));
         }
       },
-      wall.shape);
+      wall.shape, wall.material);
 }
 
 EnergySum stored_energy(const RigidWall& wall)

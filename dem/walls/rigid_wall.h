@@ -34,7 +34,7 @@ struct RigidWall {
   RigidShape shape;
   Vec3 x = Vec3::Zero(); ///< position: the origin of the shape [m]; set by the caller
   Vec3 v = Vec3::Zero(); ///< velocity [m/s]; set by the caller
-  LinearMaterial material;
+  ContactLaw material;
   std::vector<WallContact> contacts; ///< candidates, ascending in particle
   Vec3 x_listed = Vec3::Zero();      ///< x when the candidates were found [m]
   std::vector<VectorSum> force;      ///< on each part in the last step, of all ranks [N]
@@ -43,7 +43,7 @@ struct RigidWall {
   Vec3 resultant() const; ///< of the forces on all parts [N]
 };
 
-RigidWall make_rigid_wall(RigidShape shape, const Vec3& x, const LinearMaterial& material);
+RigidWall make_rigid_wall(RigidShape shape, const Vec3& x, const ContactLaw& material);
 
 /// The point of the wall that is closest to the centre of the particle.
 /// @throws NumericalError for a centre inside the wall

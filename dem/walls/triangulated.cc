@@ -1,11 +1,12 @@
 #include "dem/walls/triangulated.h"
 
 #include "dem/pairs/strength.h"
+#include "dem/particles/kinematics.h"
 
 namespace mergel::dem {
 
 Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
-               const LinearMaterial& material)
+               const ContactLaw& material)
 {
   Wall wall;
   wall.topology = make_topology(x, std::move(triangles));
@@ -58,14 +59,7 @@ Vec3 add_wall_bond(const Law& material, bool yields, double dt, const Vec3& x_a,
                               V + k.du_s * shape.k_s, Triple<double>{}};
   if (yields && !is_elastic(material, shape, load)) {
     const EffectiveLoads<double> old{load.N - shape.k_n * k.du_n, V, Triple<double>{}};
-    const BondReturn r = return_bond(material, shape, b.S, bond.state, old, load);
-    load = r.loads;
-    bond.state = r.state;
-    ++losses.yielded;
-    losses.plastic.add(r.loss);
-    if (bond.state.intact == 0.0) {
-      losses.breakage_release.add(r.breakage_release);
-      ++losses.broken;
+    if (bond_step(material, shape, b.S, old, load, bond.state, &losses).breaks) {
       --p.n_bonds[bond.particle];
       bond.V.setZero();
       bond.energy = 0.0;
@@ -87,6 +81,39 @@ void add_to_nodes(Wall& wall, const Anchor& a, const Vec3& f)
     if (a.weight[k] != 0.0) wall.f[uz(t[uz(k)])].add(a.weight[k] * f);
 }
 
+/// Of the shear spring of a contact [J].
+template <IsContactLaw Law>
+double shear_energy(const Law& law, double R, const WallContact& c)
+{
+  return 0.5 * c.f_s.squaredNorm() /
+         contact_stiffness(law, sides_at_wall(R), c.overlap).k_s;
+}
+
+template <IsContactLaw Law>
+void add_contacts(Wall& wall, const Law& law, double dt, Particles& p, PairLosses& losses)
+{
+  const double moved = travel(wall);
+  for (std::size_t c = 0; c < wall.contacts.size(); ++c) {
+    WallContact& contact = wall.contacts[c];
+    ParticleState& particle = p.state[contact.particle];
+    const auto patch = with_particle_id(p.id[contact.particle], [&] {
+      return patch_contact(wall, wall.listed[c], particle, moved);
+    });
+    if (!patch) {
+      if (contact.f_s != Vec3::Zero()) // the contact opens and loses its shear energy
+        losses.slip.add(shear_energy(law, particle.R, contact));
+      contact.f_s.setZero();
+      contact.energy = contact.overlap = 0.0;
+      continue;
+    }
+    const Vec3 f = add_wall_contact(law, patch->geometry, dt, particle,
+                                    p.load[contact.particle], contact, losses);
+    for (std::size_t s = 0; s < patch->n; ++s)
+      add_to_nodes(wall, patch->shares[s].at, -patch->shares[s].weight * f);
+    wall.contact_forces.push_back({f, patch->geometry.point, patch->geometry.v});
+  }
+}
+
 } // namespace
 
 void add_wall_forces(Wall& wall, const PairMaterials& material, double dt, Particles& p,
@@ -94,29 +121,9 @@ void add_wall_forces(Wall& wall, const PairMaterials& material, double dt, Parti
 {
   for (VectorSum& f : wall.f) f.clear();
   wall.contact_forces.clear();
-  const double moved = travel(wall);
 
-  for (std::size_t c = 0; c < wall.contacts.size(); ++c) {
-    WallContact& contact = wall.contacts[c];
-    ParticleState& particle = p.state[contact.particle];
-    const auto geometry = with_particle_id(p.id[contact.particle], [&] {
-      return patch_contact(wall, wall.listed[c], particle, moved);
-    });
-    if (!geometry) {
-      if (contact.f_s != Vec3::Zero()) { // the contact opens and loses its shear energy
-        const auto k = linear_stiffness(wall.material, particle.R, 1.0 / particle.R);
-        losses.slip.add(0.5 * contact.f_s.squaredNorm() / k.k_s);
-        contact.f_s.setZero();
-      }
-      contact.energy = 0.0;
-      continue;
-    }
-    const Vec3 f = add_wall_contact(wall.material, geometry->geometry, dt, particle,
-                                    p.load[contact.particle], contact, losses);
-    for (std::size_t s = 0; s < geometry->n; ++s)
-      add_to_nodes(wall, geometry->shares[s].at, -geometry->shares[s].weight * f);
-    wall.contact_forces.push_back({f, geometry->geometry.point, geometry->geometry.v});
-  }
+  std::visit([&](const auto& law) { add_contacts(wall, law, dt, p, losses); },
+             wall.material);
 
   for (WallBond& b : wall.bonds) {
     if (b.state.intact == 0.0) continue;

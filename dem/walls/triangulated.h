@@ -83,7 +83,7 @@ struct Wall {
   std::vector<WallContact> contacts;   ///< candidates, ascending in (particle, patch)
   std::vector<ListedCandidate> listed; ///< by contact
   std::vector<WallBond> bonds;         ///< ascending in particle
-  LinearMaterial material;
+  ContactLaw material;
   bool bonds_yield = false; ///< bonds follow the bond law; otherwise they stay elastic
   std::vector<WallContactForce>
       contact_forces;        ///< of this rank's contacts and bonds in the last step
@@ -92,7 +92,7 @@ struct Wall {
 };
 
 Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
-               const LinearMaterial& material);
+               const ContactLaw& material);
 
 /// Contact of one particle with a patch: one contact geometry, shared by the features
 /// (faces, edges, corners) in contact.

@@ -2,7 +2,7 @@
 /// Walls).
 #pragma once
 
-#include "dem/laws/linear.h"
+#include "dem/laws/contact_law.h"
 #include "dem/math/exact_sum.h"
 #include "dem/pairs/forces.h"
 #include "dem/particles/particles.h"
@@ -31,6 +31,7 @@ struct WallContact {
   int wall = 0;            ///< patch of a triangulated wall; 0 for exact surfaces
   Vec3 f_s = Vec3::Zero(); ///< shear force on the particle [N]
   double energy = 0.0;     ///< stored by the contact [J]
+  double overlap = 0.0;    ///< [m]; 0 when open
 };
 
 /// Add the contact force to the particle and update the history over the step dt [s].
@@ -40,30 +41,33 @@ struct WallContact {
 /// A particle that slides along a curved wall does not rotate the wall. So the history is
 /// not rotated with the contact frame: it is projected onto the present tangent plane and
 /// keeps its length (dem/README.md, History vectors).
-inline Vec3 add_wall_contact(const LinearMaterial& material,
-                             const ContactGeometry& geometry, double dt,
-                             ParticleState& particle, Load& load, WallContact& history,
-                             PairLosses& losses)
+template <IsContactLaw Law>
+Vec3 add_wall_contact(const Law& law, const ContactGeometry& geometry, double dt,
+                      ParticleState& particle, Load& load, WallContact& history,
+                      PairLosses& losses)
 {
-  const double g_a = material.g_a * particle.S;
-  if (geometry.gap >= g_a && history.f_s.isZero(0.0)) { // open, and no shear force
+  const double overlap = activation_gap(law) * particle.S - geometry.gap;
+  history.overlap = std::max(0.0, overlap);
+  if (overlap <= 0.0 && history.f_s.isZero(0.0)) { // open, and no shear force
     history.energy = 0.0;
     return Vec3::Zero();
   }
   const Vec3 arm = geometry.point - particle.x;
   const Vec3 v_rel = geometry.v - particle.v - particle.omega.cross(arm);
-  const Vec3 du_s = dt * (v_rel - v_rel.dot(geometry.n) * geometry.n);
+  const double v_n = v_rel.dot(geometry.n);
+  const Vec3 du_s = dt * (v_rel - v_n * geometry.n);
   Vec3 f_old = history.f_s - history.f_s.dot(geometry.n) * geometry.n;
   const double length = f_old.norm(); // the length is kept, so projection loses no energy
   if (length > 0.0) f_old *= history.f_s.norm() / length;
 
-  const auto k = linear_stiffness(material, particle.R, 1.0 / particle.R);
-  const auto c =
-      linear_contact(material, k, geometry.gap, g_a, triple(du_s), triple(f_old));
+  const ContactSides<double> sides = sides_at_wall(particle.R);
+  const ContactStep<double> c = contact_step(
+      law, sides, particle.S, {geometry.gap, dt * v_n, triple(du_s), triple(f_old)});
   if (c.slip_loss != 0.0) losses.slip.add(c.slip_loss);
   history.f_s = vec3(c.f_s);
   history.energy =
-      c.f_n > 0.0 ? 0.5 * (c.f_n * c.f_n / k.k_n + history.f_s.squaredNorm() / k.k_s) : 0.0;
+      c.f_n > 0.0 ? contact_energy_of_force(law, sides, c.f_n, history.f_s.squaredNorm())
+                  : 0.0;
 
   const Vec3 f = history.f_s - c.f_n * geometry.n;
   load.f += f;

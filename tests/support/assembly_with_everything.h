@@ -19,7 +19,7 @@ inline Assembly assembly_with_everything()
   bond.u_c = 1e-4;
   bond.theta_c = 0.1;
   assembly.material.bond = bond;
-  assembly.material.contact = {1e8, 2.4, 0.3, 1e-4};
+  assembly.material.contact = LinearMaterial{1e8, 2.4, 0.3, 1e-4};
   assembly.motion.gravity = {0.0, 0.0, -9.81};
   assembly.list = VerletList(1e-4, 1e-3);
   for (int k = 0; k < 6; ++k) {

@@ -47,7 +47,7 @@ struct StrainControlledAssembly {
   void start(double gap, double skin)
   {
     assembly.cell.is_strain_controlled = true;
-    assembly.list = VerletList(assembly.material.contact.g_a, skin);
+    assembly.list = VerletList(activation_gap(assembly.material.contact), skin);
     assembly.bonds = make_bonds(assembly.particles, assembly.cell,
                                 find_pairs(assembly.particles, assembly.cell, gap));
     add_forces(assembly, 0.0);

@@ -133,10 +133,19 @@ inline Frame axis_frame()
   return {-Vec3::UnitZ(), Vec3::UnitX()};
 }
 
-/// Runs the impact with the kernel until the two have separated.
+/// The linear contact of the impact.
+inline ContactLaw linear_law(const Impact& c)
+{
+  if (!c.j) return contact(c.k_n / (pi * c.i.R), c.kappa, c.mu, 0.0);
+  const double r = std::min(c.i.R, c.j->R), L = c.i.R + c.j->R;
+  return contact(c.k_n * L / (pi * r * r), c.kappa, c.mu, 0.0);
+}
+
+/// Runs the impact with the kernel, under any contact law, until the two have separated.
 /// @param watch(t, gap, f) at each step: time since the first contact, gap, force on i
 template <class Watch>
-Rebound run(const Impact& c, const Frame& frame, const Resolution& how, Watch&& watch)
+Rebound run(const Impact& c, const ContactLaw& law, const Frame& frame,
+            const Resolution& how, Watch&& watch)
 {
   const double dt = c.duration() / how.n, gap_0 = how.phase * dt * c.v_n();
   Scene s;
@@ -148,12 +157,10 @@ Rebound run(const Impact& c, const Frame& frame, const Resolution& how, Watch&& 
     particle.omega = b.spin * frame.z();
   };
   add(c.i, -c.i.R - gap_0);
-  RigidWall plane = make_rigid_wall(Plane{-frame.n}, Vec3::Zero(),
-                                    contact(c.k_n / (pi * c.i.R), c.kappa, c.mu, 0.0));
+  RigidWall plane = make_rigid_wall(Plane{-frame.n}, Vec3::Zero(), law);
   if (c.j) {
     add(*c.j, c.j->R);
-    const double r = std::min(c.i.R, c.j->R), L = c.i.R + c.j->R;
-    s.material.contact = contact(c.k_n * L / (pi * r * r), c.kappa, c.mu, 0.0);
+    s.material.contact = law;
     s.add_contacts({{0, 1}});
   } else {
     rebuild_wall(plane, {}, s.p, c.i.R);
@@ -176,6 +183,12 @@ Rebound run(const Impact& c, const Frame& frame, const Resolution& how, Watch&& 
   const Vec3 v = c.j ? Vec3(i.v - s.p.state[1].v) : i.v;
   return {v.dot(frame.n), v.dot(frame.t), i.omega.dot(frame.z()),
           c.j ? s.p.state[1].omega.dot(frame.z()) : 0.0, s.losses.slip.value()};
+}
+
+template <class Watch>
+Rebound run(const Impact& c, const Frame& frame, const Resolution& how, Watch&& watch)
+{
+  return run(c, linear_law(c), frame, how, watch);
 }
 
 inline Rebound run(const Impact& c, const Resolution& how = {})

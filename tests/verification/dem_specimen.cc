@@ -23,7 +23,7 @@ SpecimenSpec box_of_rock(double n_particles, double porosity = 0.52)
   s.scale = {5.0, 5.0, 0.0, 0.0};
   s.rho = 2556.0;
   s.porosity = porosity;
-  s.contact = {0.63e9, 2.4, 0.3, 0.15 * d00};
+  s.contact = LinearMaterial{0.63e9, 2.4, 0.3, 0.15 * d00};
   s.coordination = 5.8;
   s.g_b = 0.4 * d00;
   const double particle = pi / 6.0 * s.sizes.mean_cube() * 125.0; // [m^3]
@@ -61,7 +61,7 @@ Assembly as_read(const SpecimenSpec& s, const Packing& packing)
   r.particles = packing.particles;
   r.cell = packing.cell;
   r.material.contact = s.contact;
-  r.list = VerletList(s.contact.g_a, 0.3 * d00);
+  r.list = VerletList(activation_gap(s.contact), 0.3 * d00);
   add_forces(r, 0.0);
   return r;
 }
@@ -209,7 +209,7 @@ TEST_CASE("A confined cylinder reaches porosity and pressure inside its walls",
 
   // At rest the virial of the walls, which are smooth, is that of the pressure: 3 p V is
   // the sum of their forces times their distances from the centre of the cylinder.
-  const double E = s.contact.E;
+  const double E = modulus(s.contact);
   double virial = 0.0, r = 2e-3; // [J]; distance of the nearest face [m]
   for (const Face& face : solid_faces(s.region)) {
     const double away = (Vec3(0.0, 0.0, -2e-3) - face.point).dot(face.inwards);
@@ -248,7 +248,7 @@ TEST_CASE("An expanded box has its porosity at the pressure that results",
           "[verification][dem]")
 {
   SpecimenSpec s = box_of_rock(600.0, 0.35);
-  s.contact = {1e9, 5.0, 0.5, 0.1 * d00};
+  s.contact = LinearMaterial{1e9, 5.0, 0.5, 0.1 * d00};
   s.compaction = Compaction::expanded;
   const Packing p = made(s);
   CHECK(p.porosity == Approx(0.35).margin(0.002)); // to a particle of 600
@@ -288,7 +288,7 @@ TEST_CASE("Particles without friction jam at one porosity, which is named and re
           "[verification][dem]")
 {
   SpecimenSpec s = box_of_rock(200.0, 0.6);
-  s.contact.mu = 0.0;
+  s.contact = with_friction(s.contact, 0.0);
   s.compaction = Compaction::confined;
   s.pressure = 200e3;
   std::string said;
@@ -302,7 +302,7 @@ TEST_CASE("Particles without friction jam at one porosity, which is named and re
   const double porosity = std::stod(said.substr(said.find(before) + before.size()));
   // A box that holds as many particles at that porosity.
   SpecimenSpec again = box_of_rock(200.0, porosity);
-  again.contact.mu = 0.0;
+  again.contact = with_friction(again.contact, 0.0);
   again.compaction = Compaction::confined;
   again.pressure = 200e3;
   CHECK(made(again).porosity == Approx(porosity).margin(porosity_tolerance));

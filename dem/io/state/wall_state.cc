@@ -14,6 +14,9 @@ void check_particle(const std::string& name, std::uint32_t i, std::size_t n)
   if (i >= n) State::refuse(name, "names a particle that does not exist");
 }
 
+/// Columns of a contact: shear force, energy, overlap.
+constexpr std::size_t contact_columns = 5;
+
 void save_wall_contacts(State& state, const std::string& name,
                         const std::vector<WallContact>& contacts)
 {
@@ -25,11 +28,11 @@ void save_wall_contacts(State& state, const std::string& name,
     particle.push_back(c.particle);
     patch.push_back(c.wall);
     append(history, c.f_s);
-    history.push_back(c.energy);
+    history.insert(history.end(), {c.energy, c.overlap});
   }
   state.add(name + "_contact_grains", std::move(particle));
   state.add(name + "_contact_patches", std::move(patch));
-  state.add(name + "_contact_histories", std::move(history), 4);
+  state.add(name + "_contact_histories", std::move(history), contact_columns);
 }
 
 std::vector<WallContact> load_wall_contacts(const State& state, const std::string& name,
@@ -39,14 +42,16 @@ std::vector<WallContact> load_wall_contacts(const State& state, const std::strin
   const auto& patch =
       state.get_rows<std::int32_t>(name + "_contact_patches", particle.size());
   const auto& history =
-      state.get_rows<double>(name + "_contact_histories", particle.size(), 4);
+      state.get_rows<double>(name + "_contact_histories", particle.size(), contact_columns);
   std::vector<WallContact> contacts;
   for (const std::size_t k :
        ascending(name + "_contact_grains", particle.size(), [&](std::size_t a) {
          return std::pair{particle[a], patch[a]};
        })) {
     check_particle(name + "_contact_grains", particle[k], n);
-    contacts.push_back({particle[k], patch[k], vec_at(history, 4 * k), history[4 * k + 3]});
+    const std::size_t at = contact_columns * k;
+    contacts.push_back(
+        {particle[k], patch[k], vec_at(history, at), history[at + 3], history[at + 4]});
   }
   return contacts;
 }

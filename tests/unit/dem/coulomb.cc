@@ -8,11 +8,13 @@ using namespace mergel::dem::test;
 namespace {
 
 const LinearMaterial law = contact(0.63e9, 2.4, 0.38, 1e-5);
-const auto k = linear_stiffness(law, 1e-4, 0.5e4);
+const ContactSides<double> sides = sides_of_pair(1e-4, 1e-4);
+const auto k = contact_stiffness(law, sides, 0.0);
 
-LinearContact<double> slide(double gap, double du, const Vec3& f_old)
+ContactStep<double> slide(double gap, double du, const Vec3& f_old)
 {
-  return linear_contact(law, k, gap, law.g_a, Triple<double>{0.0, du, 0.0}, triple(f_old));
+  return contact_step(law, sides, 1.0,
+                      {gap, 0.0, Triple<double>{0.0, du, 0.0}, triple(f_old)});
 }
 
 } // namespace

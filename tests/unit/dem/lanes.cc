@@ -1,5 +1,7 @@
 #include "tests/support/dem_scene.h"
 
+#include "dem/particles/kinematics.h"
+
 #include <catch2/catch.hpp>
 
 #include <bit>
@@ -88,6 +90,7 @@ TEST_CASE("The four-lane kernel gives the bits of the scalar kernel", "[unit][de
   brittle.sigma_c = bond.sigma_t;
   brittle.tau_c = bond.C;
   const LinearMaterial law = contact(0.63e9, 2.4, 0.38, 3e-5);
+  const HertzMaterial spheres{0.63e9, 0.2, 0.38};
   int n_sliding = 0, n_open = 0, n_elastic = 0, n_held = 0;
   for (int trial = 0; trial < 5000; ++trial) {
     const End<Lanes> i = fours.end(0.0), j = fours.end(2e-4);
@@ -95,9 +98,10 @@ TEST_CASE("The four-lane kernel gives the bits of the scalar kernel", "[unit][de
     const PairMotion<Lanes> k = pair_motion(i, j, dt);
     const Triple<Lanes> history = fours.vector(3e-2);
     const Triple<Lanes> V = rotated_with_contact(history, k);
-    const Lanes r = mergel::dem::min(i.R, j.R), g_a = law.g_a * (0.5 * (i.S + j.S));
-    const auto stiffness = linear_stiffness(law, r, k.inv_L);
-    const auto c = linear_contact(law, stiffness, k.gap, g_a, k.du_s, V);
+    const Lanes r = mergel::dem::min(i.R, j.R), S = 0.5 * (i.S + j.S);
+    const auto sides = sides_of_pair(i.R, j.R, k.inv_L);
+    const auto c = contact_step(law, sides, S, {k.gap, k.du_n, k.du_s, V});
+    const auto h = contact_step(spheres, sides, S, {k.gap, k.du_n, k.du_s, V});
     const auto shape = bond_shape(bond, r, k.inv_L);
     const EffectiveLoads<Lanes> q{fours.number(-1e-3, 1e-3), fours.vector(1e-3),
                                   fours.vector(1e-9), fours.number(-1e-9, 1e-9)};
@@ -116,11 +120,14 @@ TEST_CASE("The four-lane kernel gives the bits of the scalar kernel", "[unit][de
 
       const auto V1 = rotated_with_contact(lane(history, l), k1);
       const double r1 = mergel::dem::min(i.R[l], j.R[l]);
-      const double g1 = law.g_a * (0.5 * (i.S[l] + j.S[l]));
-      const auto stiffness1 = linear_stiffness(law, r1, k1.inv_L);
-      const auto c1 = linear_contact(law, stiffness1, k1.gap, g1, k1.du_s, V1);
+      const double S1 = 0.5 * (i.S[l] + j.S[l]);
+      const auto sides1 = sides_of_pair(i.R[l], j.R[l], k1.inv_L);
+      const auto c1 = contact_step(law, sides1, S1, {k1.gap, k1.du_n, k1.du_s, V1});
       same = same && same_bits(V1, lane(V, l)) && same_bits(c1.f_n, c.f_n[l]) &&
              same_bits(c1.f_s, lane(c.f_s, l)) && same_bits(c1.slip_loss, c.slip_loss[l]);
+      const auto h1 = contact_step(spheres, sides1, S1, {k1.gap, k1.du_n, k1.du_s, V1});
+      same = same && same_bits(h1.f_n, h.f_n[l]) && same_bits(h1.f_s, lane(h.f_s, l)) &&
+             same_bits(h1.slip_loss, h.slip_loss[l]);
       n_sliding += c1.slip_loss > 0.0 && c1.f_n > 0.0;
       n_open += c1.f_n == 0.0;
 

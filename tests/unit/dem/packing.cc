@@ -25,7 +25,7 @@ SpecimenSpec small_specimen()
   s.sizes = Grading(UniformSizes{d00, 0.1337e-3});
   s.rho = 2556.0;
   s.porosity = 0.52;
-  s.contact.g_a = 0.15 * d00;
+  s.contact = LinearMaterial{.g_a = 0.15 * d00};
   s.g_b = 0.4 * d00;
   s.coordination = 5.8;
   return s;
@@ -67,9 +67,9 @@ TEST_CASE("A packing has its porosity, its ids in order and no overlap", "[unit]
   // No two particles with their far-field shells overlap by more than the overlap reported;
   // without the shells they do not touch.
   double worst = 0.0;
-  for (const Pair& q : find_pairs(p, {}, s.contact.g_a)) {
+  for (const Pair& q : find_pairs(p, {}, activation_gap(s.contact))) {
     const ParticleState &i = p.state[q.i], &j = p.state[q.j];
-    const double reach = i.R + j.R + s.contact.g_a * 0.5 * (i.S + j.S);
+    const double reach = i.R + j.R + activation_gap(s.contact) * 0.5 * (i.S + j.S);
     worst = std::max(worst, (reach - (j.x - i.x).norm()) / reach);
   }
   CHECK(worst <= packing.overlap * 1.5 + 1e-12); // reported before the last move

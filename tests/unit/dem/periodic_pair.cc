@@ -21,7 +21,7 @@ TEST_CASE("A pair across a periodic boundary has the forces of the same pair wit
     s.p.state[0].v = {0.0, 0.5, -0.25};
     s.cell.size = periodic ? Vec3(1.0, 1.0, 0.0) : Vec3::Zero();
     if (periodic) s.p.state[1].x += Vec3(1.0, -2.0, 0.0); // two cells away from the contact
-    const auto pairs = find_pairs(s.p, s.cell, s.material.contact.g_a);
+    const auto pairs = find_pairs(s.p, s.cell, activation_gap(s.material.contact));
     REQUIRE(pairs.size() == 1);
     CHECK(pairs[0].shift == (periodic ? Shift{-1, 2, 0} : Shift{0, 0, 0}));
     s.bond(pairs);

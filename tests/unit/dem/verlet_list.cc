@@ -45,7 +45,7 @@ struct Outcome {
 Outcome run(bool every_step)
 {
   Scene s = gas();
-  VerletList list(s.material.contact.g_a, 1.5e-3);
+  VerletList list(activation_gap(s.material.contact), 1.5e-3);
   const double dt = 5e-6;
   for (int step = 0; step < 1500; ++step) {
     if (every_step || list.is_stale(s.p)) list.rebuild(s.p, s.cell, s.bonds, s.contacts);

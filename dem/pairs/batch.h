@@ -1,0 +1,133 @@
+/// How the pair kernels read and write: a batch of pairs at a time, one pair per lane.
+#pragma once
+
+#include "dem/pairs/pairs.h"
+#include "dem/particles/kinematics.h"
+#include "dem/particles/particles.h"
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+namespace mergel::dem {
+
+inline Row row(const double* four)
+{
+  Row r;
+  std::memcpy(&r, four, sizeof r);
+  return r;
+}
+
+/// One particle of each pair of a batch, transposed from the records.
+[[gnu::always_inline]] inline End<Lanes> gather(const ParticleState* state, const Index* at)
+{
+  const auto rows = [&](auto member, Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
+    Row r[n_lanes];
+    for (int l = 0; l < n_lanes; ++l) r[l] = row((state[at[l]].*member).data());
+    columns(r, a, b, c, d);
+  };
+  End<Lanes> e;
+  Lanes m; // the mass is in the row of the spin
+  rows(&ParticleState::x, e.x.x, e.x.y, e.x.z, e.R);
+  rows(&ParticleState::v, e.v.x, e.v.y, e.v.z, e.S);
+  rows(&ParticleState::omega, e.omega.x, e.omega.y, e.omega.z, m);
+  return e;
+}
+
+/// Forces on i and torques of a batch of pairs, one row for each.
+struct Rows {
+  Row f[n_lanes], t_i[n_lanes], t_j[n_lanes];
+};
+
+/// @param F force on i at the contact point, -F acts on j; @param M moment on i, -M on j
+[[gnu::always_inline]] inline Rows to_rows(const PairMotion<Lanes>& k,
+                                           const Triple<Lanes>& F, const Triple<Lanes>& M)
+{
+  const Triple<Lanes> nF = cross(k.n, F);
+  const Triple<Lanes> t_i = nF * k.a_i + M, t_j = nF * k.a_j - M;
+  Rows r;
+  const auto set = [](Row(&out)[n_lanes], const Triple<Lanes>& a) {
+    rows(a.x, a.y, a.z, Lanes{}, out);
+  };
+  set(r.f, F);
+  set(r.t_i, t_i);
+  set(r.t_j, t_j);
+  return r;
+}
+
+inline void add_row(double* four, Row a)
+{
+  Row sum;
+  std::memcpy(&sum, four, sizeof sum);
+  sum += a;
+  std::memcpy(four, &sum, sizeof sum);
+}
+
+/// Add the lanes to the particles one after the other: each particle adds its pairs in
+/// their order.
+[[gnu::always_inline]] inline void scatter(Load* load, const Index* i, const Index* j,
+                                           int count, const Rows& r)
+{
+  for (int l = 0; l < count; ++l) {
+    add_row(load[i[l]].f.data(), r.f[l]);
+    add_row(load[i[l]].t.data(), r.t_i[l]);
+    add_row(load[j[l]].f.data(), -r.f[l]);
+    add_row(load[j[l]].t.data(), r.t_j[l]);
+  }
+}
+
+/// The pairs of one batch. Missing pairs of the last batch repeat the last pair; they are
+/// not scattered.
+struct Batch {
+  Index i[n_lanes], j[n_lanes];
+  int count;
+};
+
+[[gnu::always_inline]] inline Batch batch_of(const std::vector<Pair>& pairs,
+                                             const std::size_t* which, std::size_t first,
+                                             std::size_t end)
+{
+  Batch q;
+  q.count = static_cast<int>(std::min<std::size_t>(n_lanes, end - first));
+  for (int l = 0; l < n_lanes; ++l) {
+    const std::size_t k = first + static_cast<std::size_t>(std::min(l, q.count - 1));
+    const Pair& pair = pairs[which ? which[k] : k];
+    q.i[l] = pair.i;
+    q.j[l] = pair.j;
+  }
+  return q;
+}
+
+inline void shift_images(const std::vector<Pair>& pairs, const std::size_t* which,
+                         std::size_t first, const Batch& q, const PeriodicCell& cell,
+                         Triple<Lanes>& x)
+{
+  for (int l = 0; l < q.count; ++l) {
+    const std::size_t k = first + static_cast<std::size_t>(l);
+    const Shift& shift = pairs[which ? which[k] : k].shift;
+    if ((shift[0] | shift[1] | shift[2]) == 0) continue; // x + 0 is x
+    const Vec3 offset = cell.offset(shift);
+    x.x[l] += offset.x();
+    x.y[l] += offset.y();
+    x.z[l] += offset.z();
+  }
+}
+
+/// In a strain-controlled cell v is relative to the cell: add to j the velocity of the cell
+/// at j relative to that at i.
+[[gnu::always_inline]] inline void add_cell_motion(const Vec3& rate, const End<Lanes>& i,
+                                                   End<Lanes>& j)
+{
+  const Triple<Lanes> r = j.x - i.x;
+  j.v += {r.x * rate.x(), r.y * rate.y(), r.z * rate.z()};
+}
+
+inline void prefetch(const Particles& p, Index j)
+{
+  const char* b = reinterpret_cast<const char*>(&p.state[j]);
+  __builtin_prefetch(b);
+  __builtin_prefetch(b + 64);
+  __builtin_prefetch(&p.load[j], 1);
+}
+
+} // namespace mergel::dem
