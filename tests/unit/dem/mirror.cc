@@ -71,6 +71,7 @@ TEST_CASE("The half model has the force, the loss and the breakage of the full p
   }
   CHECK(half.losses.plastic.value() > 1e-3);
   CHECK(half.losses.broken == 1);
+  CHECK(half.losses.broken_by == whole.losses.broken_by); // the same mode
   CHECK(whole.losses.broken == 1);
   CHECK(half.p.n_bonds[0] == 0);
   CHECK(half.losses.breakage_release.value() * 2.0 ==

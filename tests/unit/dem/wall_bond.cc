@@ -80,6 +80,7 @@ TEST_CASE("A wall bond that may not yield stays elastic, the other one softens a
   CHECK(t.move_wall(u, true).z() == Approx(-1e6 * A * std::exp(-1.0)).epsilon(1e-9));
   CHECK(t.move_wall({0.0, 0.0, -4e-4}, true, 10).norm() == 0.0);
   CHECK(t.losses.broken == 1);
+  CHECK(t.losses.broken_by[static_cast<std::size_t>(BreakMode::tension)] == 1);
   CHECK(t.p.n_bonds[0] == 0);
 }
 
