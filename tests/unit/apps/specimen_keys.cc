@@ -37,7 +37,7 @@ void resolved(const std::string& text, Use&& use)
   k.upscaling = SpecimenKeys::Upscaling::uniform;
   declare(file, k);
   file.read_text(text, "case");
-  complete(file, k, {0.63e9, 2.4, 0.65, 3e-5});
+  complete(file, k, dem::LinearMaterial{0.63e9, 2.4, 0.65, 3e-5});
   use(file);
 }
 
