@@ -75,7 +75,7 @@ void CoupledSystem::save(dem::State& state) const
 
 CoupledSystem::CoupledSystem(const CoupledCase& c, dem::State& state,
                              std::vector<dem::PileWall> piles, fem::FarField field,
-                             coupling::Interface interface)
+                             coupling::Interface interface, MPI_Comm comm)
     : CoupledSystem(c, std::move(field), std::move(interface))
 {
   assembly.piles = std::move(piles);
@@ -96,7 +96,7 @@ CoupledSystem::CoupledSystem(const CoupledCase& c, dem::State& state,
     dem::State::refuse("x_0", "does not have one row per particle");
   for (std::size_t k = 0; k < x.size(); k += 3) x_0.emplace_back(x[k], x[k + 1], x[k + 2]);
 
-  dem::distribute(assembly, MPI_COMM_WORLD);
+  dem::distribute(assembly, comm);
   dem::rebuild_lists(assembly);
 }
 

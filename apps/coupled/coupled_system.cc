@@ -53,9 +53,9 @@ std::vector<double> interface_springs(const dem::Assembly& assembly,
 
 } // namespace
 
-fem::FarField make_far_field(CoupledCase& c)
+fem::FarField make_far_field(CoupledCase& c, MPI_Comm comm)
 {
-  fem::FarField far_field(c.far_field, MPI_COMM_WORLD);
+  fem::FarField far_field(c.far_field, comm);
   // The corners of the prism are the interface nodes of the surface.
   int corners = 0;
   for (const Eigen::Vector3d& x : far_field.interface().x)
@@ -79,7 +79,8 @@ CoupledSystem::CoupledSystem(const CoupledCase& c, fem::FarField field,
 }
 
 CoupledSystem::CoupledSystem(const CoupledCase& c, const dem::Sample& sample,
-                             fem::FarField field, coupling::Interface interface)
+                             fem::FarField field, coupling::Interface interface,
+                             MPI_Comm comm)
     : CoupledSystem(c, std::move(field), std::move(interface))
 {
   assembly.particles = sample.packing.particles;
@@ -88,7 +89,7 @@ CoupledSystem::CoupledSystem(const CoupledCase& c, const dem::Sample& sample,
     dem::bond_to_mirror(assembly.mirrors.front(), assembly.particles, sample.bonding.limit);
   if (c.interface_bond != InterfaceBond::frictional)
     dem::bond_to_wall(assembly.walls.front(), assembly.particles, sample.bonding.limit);
-  dem::distribute(assembly, MPI_COMM_WORLD);
+  dem::distribute(assembly, comm);
   dem::add_forces(assembly, 0.0); // at dt = 0 histories do not change
   dt = dt_before = dem::stable_time_step(assembly, safety);
   lower_time_step(true);

@@ -34,13 +34,14 @@ struct CoupledSystem {
   Settling settling;          ///< advanced by equilibrate()
   std::vector<dem::Vec3> x_0; ///< positions in equilibrium, set by equilibrate() [m]
 
+  /// @param comm of the far field too; must outlive the object
   CoupledSystem(const CoupledCase& c, const dem::Sample& sample, fem::FarField far_field,
-                coupling::Interface interface);
+                coupling::Interface interface, MPI_Comm comm);
   /// As it was when save() wrote the state; collective. Empties the state.
   /// @param piles those that it had then
   /// @throws InputError when the state is of another system
   CoupledSystem(const CoupledCase& c, dem::State& state, std::vector<dem::PileWall> piles,
-                fem::FarField far_field, coupling::Interface interface);
+                fem::FarField far_field, coupling::Interface interface, MPI_Comm comm);
   CoupledSystem(const CoupledSystem&) = delete;
   CoupledSystem& operator=(const CoupledSystem&) = delete;
 
@@ -106,7 +107,7 @@ private:
 
 /// The far field of a case. Sets in `c` the number of faces of its side, inside which the
 /// specimen is made. @throws std::invalid_argument as fem::FarField does
-fem::FarField make_far_field(CoupledCase& c);
+fem::FarField make_far_field(CoupledCase& c, MPI_Comm comm);
 
 /// Bring the system to equilibrium (coupling/README.md, Start of a coupled run): the
 /// assembly settles in held walls; the far field is solved under its forces and the

@@ -93,7 +93,7 @@ int run_pile(const JobOptions& options)
   if (restart)
     on_first_rank([&] { PileOutput::check(restart->folder, restart->checkpoint.state); });
 
-  fem::FarField far_field = make_far_field(c.assembly);
+  fem::FarField far_field = make_far_field(c.assembly, MPI_COMM_WORLD);
   coupling::Interface interface = coupling::make_interface(
       far_field.interface(), c.assembly.interface, c.assembly.collar_height);
   std::optional<PileOutput> output;
@@ -104,7 +104,7 @@ int run_pile(const JobOptions& options)
     std::vector<dem::PileWall> piles;
     if (Installation::is_in(state)) piles.push_back(make_pile(c));
     coupled.emplace(c.assembly, state, std::move(piles), std::move(far_field),
-                    std::move(interface));
+                    std::move(interface), MPI_COMM_WORLD);
     if (has_changed(*restart, "Motion", "time step safety")) coupled->lower_time_step(true);
     on_first_rank([&] {
       prepare_continued_folder(folder, inputs, file, *restart);
@@ -122,7 +122,8 @@ int run_pile(const JobOptions& options)
       output.emplace(folder.path(), c);
     });
     require_shared(folder.path());
-    coupled.emplace(c.assembly, sample, std::move(far_field), std::move(interface));
+    coupled.emplace(c.assembly, sample, std::move(far_field), std::move(interface),
+                    MPI_COMM_WORLD);
   }
 
   Installation run(c, *coupled, output ? &*output : nullptr);

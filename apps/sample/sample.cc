@@ -130,7 +130,7 @@ int run_sample(const JobOptions& options)
     require_same_case(file);
     const auto inputs = inputs_of(options, std::nullopt, {c.assembly.table});
     on_first_rank([&] { folder.check(inputs); });
-    make_far_field(c.assembly); // sets the faces around the side
+    make_far_field(c.assembly, MPI_COMM_WORLD); // sets the faces around the side
     make(file, c.assembly, folder, inputs);
     return 0;
   }
