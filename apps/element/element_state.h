@@ -1,4 +1,5 @@
-/// Saving and loading an element test and its records as named arrays.
+/// Saving and loading an element test and its records: each number by its
+/// name.
 #pragma once
 
 #include "apps/element/element_case.h"
@@ -14,6 +15,7 @@ dem::ElementState load_element(dem::State& state, const ElementCase& c);
 
 /// Add the records so far, for the analysis of the stages.
 void save(dem::State& state, const std::vector<dem::ElementRecord>& records);
+/// @throws InputError when there is none
 std::vector<dem::ElementRecord> load_records(const dem::State& state);
 
 } // namespace mergel::apps

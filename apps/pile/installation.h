@@ -5,6 +5,7 @@
 #include "apps/coupled/coupled_system.h"
 #include "apps/pile/penetration_rate.h"
 #include "apps/pile/pile_output.h"
+#include "dem/io/state/named_numbers.h"
 
 #include <functional>
 #include <string>
@@ -30,6 +31,12 @@ struct MeanForce {
   void add(const dem::PileLoad& load);
 };
 
+/// A push of the pile, from rest to rest: depths of the tip [m].
+struct Push {
+  double end = 0.0; ///< where it is to end
+  double tip = 0.0; ///< where it is
+};
+
 /// The pile with its tip at the surface, at rest.
 dem::PileWall make_pile(const PileCase& c);
 
@@ -42,12 +49,9 @@ public:
   Installation(const PileCase& c, CoupledSystem& coupled, PileOutput* output);
 
   /// Whether the state was saved after the penetration began.
-  static bool is_in(const dem::State& state) { return state.has("pile_numbers"); }
-  /// Depth of the tip in that state [m].
-  static double travelled_in(const dem::State& state)
-  {
-    return -state.get_rows<double>("pile0_place", 1, 6)[4];
-  }
+  static bool is_in(const dem::State& state) { return state.has("push"); }
+  /// The push in that state. @throws InputError when it is not there
+  static Push push_in(const dem::State& state);
 
   /// Place the pile with its tip at the surface of the system in equilibrium.
   void begin();
@@ -87,11 +91,11 @@ private:
   PileRecord new_record(const CoupledSystem::EnergyBalances& energy_balances);
   std::string now() const;
 
-  /// Pointers to every number of a run, to save and load it; `self` may be const.
+  /// Every number of a run by its name, to save and load it; `self` may be const.
   template <class Self>
-  static auto numbers_of(Self& self);
+  static dem::NumbersOf<Self> numbers_of(Self& self);
   template <class Self>
-  static auto counts_of(Self& self);
+  static dem::CountsOf<Self> counts_of(Self& self);
 
   const PileCase& case_;
   CoupledSystem& coupled_;

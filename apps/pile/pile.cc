@@ -43,7 +43,7 @@ void check_new_end(const CaseFile& file, const PileCase& c, const Restart& resta
   declare(earlier_file, earlier);
   earlier_file.read_text(restart.checkpoint.label.case_text, restart.file.string());
   if (earlier.travel() == c.travel()) return;
-  const double travelled = Installation::travelled_in(restart.checkpoint.state);
+  const double travelled = Installation::push_in(restart.checkpoint.state).tip;
   if (travelled <= std::min(PenetrationRate(earlier).slows_down_at(),
                             PenetrationRate(c).slows_down_at()))
     return;
