@@ -183,4 +183,24 @@ std::vector<dem::ElementRecord> load_records(const dem::State& state)
   return records;
 }
 
+void save(dem::State& state, const std::vector<dem::Outcome>& outcomes)
+{
+  std::vector<std::uint64_t> numbers;
+  for (const dem::Outcome o : outcomes) numbers.push_back(static_cast<std::uint64_t>(o));
+  state.add_common("element_outcomes", std::move(numbers));
+}
+
+std::vector<dem::Outcome> load_outcomes(const dem::State& state, std::size_t n_stages)
+{
+  std::vector<dem::Outcome> outcomes;
+  for (const std::uint64_t n : state.get<std::uint64_t>("element_outcomes")) {
+    if (n > static_cast<std::uint64_t>(dem::Outcome::unstable))
+      dem::State::refuse("element_outcomes", "holds an unknown outcome");
+    outcomes.push_back(static_cast<dem::Outcome>(n));
+  }
+  if (outcomes.empty() || outcomes.size() > n_stages)
+    dem::State::refuse("element_outcomes", "counts stages that the case does not have");
+  return outcomes;
+}
+
 } // namespace mergel::apps

@@ -24,6 +24,7 @@ public:
   }
   double travel() const { return travel_; }                ///< of the tip, total [m]
   double slows_down_at() const { return travel_ - ramp_; } ///< depth of the tip [m]
+  double ramp() const { return ramp_; }                    ///< its length [m]
 
 private:
   double v_, ramp_, travel_;

@@ -60,7 +60,7 @@ public:
   struct Position {
     std::uint64_t step;
     double time;       ///< [s]
-    const char* phase; ///< name of the phase
+    std::string phase; ///< its name
   };
 
   /// Call between steps, on all ranks. Writes a checkpoint when one is due: by time or

@@ -83,7 +83,7 @@ void Frames::save(dem::State& state, const Frames* frames)
 
 std::size_t Frames::count(const dem::State& state)
 {
-  return times_in(state).size();
+  return state.has("output_frames") ? times_in(state).size() : 0;
 }
 
 void Frames::check(const std::filesystem::path& folder, const std::vector<Kind>& kinds,

@@ -31,7 +31,7 @@ public:
 
   /// @param frames null on all ranks but the first
   static void save(dem::State& state, const Frames* frames);
-  /// Number of frames in the state.
+  /// Number of frames in the state; 0 for a job without frames.
   static std::size_t count(const dem::State& state);
   /// @throws InputError when a file of the frames in `state` is missing from `folder`
   static void check(const std::filesystem::path& folder, const std::vector<Kind>& kinds,
