@@ -33,6 +33,27 @@ void declare(CaseFile& file, SampleCase& c)
             "Let particles without an intact bond rotate; in the paper they do not.");
 }
 
+void complete(CaseFile& file, SampleCase& c)
+{
+  complete(file, c.specimen, c.contact);
+}
+
+SpecimenKeys& keys_of(SampleCase& c)
+{
+  return c.specimen;
+}
+SpecimenKeys& keys_of(PileCase& c)
+{
+  return c.assembly;
+}
+
+/// Finish what only the walls of the run determine.
+void fit_to_walls(SampleCase&) {}
+void fit_to_walls(PileCase& c)
+{
+  make_far_field(c.assembly, MPI_COMM_WORLD); // sets the faces around the side
+}
+
 /// Whether the case is one of `mergel pile`, whose specimen is made inside its walls.
 bool is_pile_case(const JobOptions& options)
 {
@@ -78,16 +99,29 @@ void refuse_sample(const CaseFile& file, const SpecimenKeys& k)
                 "mergel sample makes the specimen: leave the key empty");
 }
 
-/// Make the specimen, print its report and write its files.
-void make(const CaseFile& file, const SpecimenKeys& k, OutputFolder& folder,
-          const std::vector<std::filesystem::path>& inputs)
+/// Read the case, make the specimen, print its report and write its files.
+template <class Case>
+void make(const JobOptions& options)
 {
+  CaseFile file;
+  Case c;
+  declare(file, c);
+  SpecimenKeys& k = keys_of(c);
+  on_every_rank([&] {
+    read_case(file, options, std::nullopt);
+    refuse_sample(file, k);
+    complete(file, c);
+  });
+  require_same_case(file);
+  const auto inputs = inputs_of(options, std::nullopt, {k.table});
+  OutputFolder folder = folder_of(options, std::nullopt, inputs, {});
+  fit_to_walls(c);
+
   const dem::Sample sample = obtain_sample(file, k);
   std::cout << report(k, sample) << '\n';
   const auto path = folder.path() / "sample.h5";
   on_first_rank([&] {
-    folder.commit(inputs);
-    file.write_resolved(folder.path() / "resolved.prm");
+    begin_folder(folder, inputs, file);
     dem::write_sample(path, sample);
     write_pictures(folder.path(), as_assembly(k, sample));
     dem::replace_file(folder.path() / "summary.json", summary(k, sample));
@@ -112,39 +146,14 @@ void help_sample(std::ostream& out)
 
 int run_sample(const JobOptions& options)
 {
-  OutputFolder folder(options.output, Earlier::keep);
   bool is_pile = false;
-  on_first_rank([&] { folder = folder_to_begin_in(options); });
   on_every_rank([&] { is_pile = is_pile_case(options); });
   MPI_Bcast(&is_pile, 1, MPI_CXX_BOOL, 0,
-            MPI_COMM_WORLD); // require_same_case() below compares the cases
-  CaseFile file;
-  if (is_pile) {
-    PileCase c;
-    declare(file, c);
-    on_every_rank([&] {
-      read_case(file, options, std::nullopt);
-      complete(file, c);
-      refuse_sample(file, c.assembly);
-    });
-    require_same_case(file);
-    const auto inputs = inputs_of(options, std::nullopt, {c.assembly.table});
-    on_first_rank([&] { folder.check(inputs); });
-    make_far_field(c.assembly, MPI_COMM_WORLD); // sets the faces around the side
-    make(file, c.assembly, folder, inputs);
-    return 0;
-  }
-  SampleCase c;
-  declare(file, c);
-  on_every_rank([&] {
-    read_case(file, options, std::nullopt);
-    refuse_sample(file, c.specimen);
-    complete(file, c.specimen, c.contact);
-  });
-  require_same_case(file);
-  const auto inputs = inputs_of(options, std::nullopt, {c.specimen.table});
-  on_first_rank([&] { folder.check(inputs); });
-  make(file, c.specimen, folder, inputs);
+            MPI_COMM_WORLD); // require_same_case() compares the cases
+  if (is_pile)
+    make<PileCase>(options);
+  else
+    make<SampleCase>(options);
   return 0;
 }
 
