@@ -47,7 +47,8 @@ void print_help(std::ostream& out)
 const char* const help_on_checkpoints =
     R"(  --restart DIR|FILE         continue a run from the newest good checkpoint of its
                              results folder, or from this checkpoint; begin a run where
-                             there is none yet. CASE.prm may be left out
+                             there is none yet; take a finished run further, where the
+                             case has a later end. CASE.prm may be left out
   --walltime TIME            write a checkpoint and stop before this time is over (4h,
                              30 min, 4:00:00, 1-12:00:00)
 

@@ -29,6 +29,7 @@ public:
   std::vector<std::string> free_keys() const override;
 
   void check_restart(const CaseFile& file, const Restart& restart) const override;
+  std::string what_is_done(const Restart& restart) const override;
 
   void begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm) override;
   void resume(Restart& restart, RunFolder& folder, MPI_Comm comm) override;
@@ -89,8 +90,48 @@ void ElementJob::check_restart(const CaseFile& file, const Restart& restart) con
     file.refuse("Loading", change->key,
                 "was \"" + change->was + "\", and the checkpoint is in stage " +
                     std::to_string(n) +
-                    " of the test: only later stages may change. Restore it, or choose an "
-                    "older checkpoint");
+                    " of the test: only later stages may change. Restore it, and add a "
+                    "stage such as `resume to axial strain = 5 %` to go further; or choose "
+                    "an older checkpoint");
+}
+
+/// Whether a test that has ended at its strain limit is below the limit of this case.
+bool goes_on(const dem::ElementRecord& last, const ElementCase& c)
+{
+  return last.whole.largest_strain() <= c.strain_limit;
+}
+
+std::string ElementJob::what_is_done(const Restart& restart) const
+{
+  const dem::State& state = restart.checkpoint.state;
+  const auto outcomes = load_outcomes(state, case_.stages.size());
+  const std::size_t n = outcomes.size();
+  const bool is_analysed_anew =
+      std::any_of(restart.changed.begin(), restart.changed.end(),
+                  [](const auto& k) { return k.section == "Analysis"; });
+  using dem::Outcome;
+  switch (outcomes.back()) {
+  case Outcome::unstable: // under way
+  case Outcome::goes_on:
+    return "";
+  case Outcome::done:
+    if (n < case_.stages.size() || is_analysed_anew) return "";
+    return "all its stages are done. To load the specimen further, restart with another "
+           "stage.";
+  case Outcome::strain_limit_reached:
+    if (goes_on(load_records(state).back(), case_)) return "";
+    break;
+  case Outcome::pulled_apart:
+  case Outcome::reversed:
+    break;
+  }
+  if (is_analysed_anew) return "";
+  return "stage " + std::to_string(n) +
+         " ended the test: " + dem::sentence_of(outcomes.back()) +
+         ". It cannot be loaded further" +
+         (outcomes.back() == Outcome::strain_limit_reached
+              ? ", but with a larger `Loading/strain limit`."
+              : ".");
 }
 
 void ElementJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
@@ -113,6 +154,9 @@ void ElementJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
   });
   records_ = load_records(state);
   outcomes_ = load_outcomes(state, case_.stages.size());
+  if (outcomes_.back() == dem::Outcome::strain_limit_reached &&
+      goes_on(records_.back(), case_))
+    outcomes_.back() = dem::Outcome::unstable; // under way again
   test_.emplace(case_, load_element(state, case_), comm);
   if (find_change(restart, "Motion", "time step safety")) test_->lower_time_step();
   folder.prepare();

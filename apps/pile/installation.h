@@ -33,8 +33,11 @@ struct MeanForce {
 
 /// A push of the pile, from rest to rest: depths of the tip [m].
 struct Push {
-  double end = 0.0; ///< where it is to end
-  double tip = 0.0; ///< where it is
+  double start = 0.0; ///< where it starts
+  double end = 0.0;   ///< where it is to end
+  double tip = 0.0;   ///< where it is
+
+  bool is_over() const { return tip >= end; }
 };
 
 /// The pile with its tip at the surface, at rest.
@@ -59,14 +62,14 @@ public:
   /// Add the numbers and counts of the penetration to a state. CoupledSystem::save() adds
   /// those of assembly and pile.
   void save(dem::State& state) const;
-  /// Continue from the numbers of save(). @throws InputError when the state is of another
-  /// run
+  /// Continue from the numbers of save(). Where the push is over and the case goes deeper,
+  /// another push starts. @throws InputError when the state is of another run
   void load(const dem::State& state);
   /// Set the next record, or frame, after its spacing was changed.
   void space_records_anew();
   void space_frames_anew();
 
-  /// Push the pile down to its final depth.
+  /// Push the pile down to its final depth, if it is not there.
   /// @param after_step called between two steps, for checkpoints
   /// @throws Unstable when a step fails or the energy error exceeds 0.01
   void run(const std::function<void()>& after_step);
@@ -78,9 +81,10 @@ public:
   const BreakageCount& breakage() const { return breakage_; }
   std::size_t n_bonds() const { return n_bonds_; }     ///< of all kinds, at the start
   std::size_t n_between() const { return n_between_; } ///< of these, between particles
+  std::size_t n_pushes() const { return n_pushes_; }   ///< the present one included
+  double travelled() const;                            ///< depth of the tip [m]
 
 private:
-  double travelled() const; ///< depth of the tip [m]
   double next_frame() const ///< depth of the tip [m]
   {
     return rate_.travel() * static_cast<double>(n_frames_) / case_.frames;
@@ -90,6 +94,8 @@ private:
   void record();
   PileRecord new_record(const CoupledSystem::EnergyBalances& energy_balances);
   std::string now() const;
+
+  void push_further();
 
   /// Every number of a run by its name, to save and load it; `self` may be const.
   template <class Self>
@@ -110,6 +116,7 @@ private:
   std::size_t n_frames_ = 0; ///< frames that were due so far, the first included
   coupling::InterfaceBalance worst_interface_;
   std::size_t n_bonds_ = 0, n_between_ = 0;
+  std::size_t n_pushes_ = 1;
 };
 
 } // namespace mergel::apps

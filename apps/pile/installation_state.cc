@@ -30,7 +30,9 @@ void append_far_field(Numbers& to, const std::string& of, Energies& e)
 template <class Self>
 dem::NumbersOf<Self> numbers_of_push(Self& push)
 {
-  return {{"tip depth at the end [m]", &push.end}, {"tip depth [m]", &push.tip}};
+  return {{"tip depth at the start [m]", &push.start},
+          {"tip depth at the end [m]", &push.end},
+          {"tip depth [m]", &push.tip}};
 }
 
 } // namespace
@@ -72,12 +74,13 @@ dem::CountsOf<Self> Installation::counts_of(Self& self)
           {"breakages above the shoulder", &self.breakage_.above},
           {"frames due so far", &self.n_frames_},
           {"bonds", &self.n_bonds_},
-          {"bonds between particles", &self.n_between_}};
+          {"bonds between particles", &self.n_between_},
+          {"pushes", &self.n_pushes_}};
 }
 
 void Installation::save(dem::State& state) const
 {
-  const Push push{rate_.travel(), travelled()};
+  const Push push{rate_.start(), rate_.travel(), travelled()};
   dem::save_numbers(state, "push", numbers_of_push(push));
   dem::save_numbers(state, "pile_numbers", numbers_of(*this));
   dem::save_counts(state, "pile_counts", counts_of(*this));
@@ -94,6 +97,18 @@ void Installation::load(const dem::State& state)
 {
   dem::load_numbers(state, "pile_numbers", numbers_of(*this));
   dem::load_counts(state, "pile_counts", counts_of(*this));
+  const Push push = push_in(state);
+  rate_ = PenetrationRate(case_, push.start);
+  if (push.is_over() && travelled() < rate_.travel()) push_further();
+}
+
+/// The pile stands at its old end; what it does from there does not depend on that end.
+void Installation::push_further()
+{
+  rate_ = PenetrationRate(case_, travelled());
+  ++n_pushes_;
+  space_records_anew();
+  space_frames_anew();
 }
 
 void Installation::space_records_anew()

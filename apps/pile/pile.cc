@@ -30,6 +30,7 @@ public:
   }
 
   void check_restart(const CaseFile& file, const Restart& restart) const override;
+  std::string what_is_done(const Restart& restart) const override;
 
   void begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm) override;
   void resume(Restart& restart, RunFolder& folder, MPI_Comm comm) override;
@@ -62,7 +63,7 @@ std::string mm(double x)
 }
 
 /// Refuse another final depth once the pile slows down for the old or the new one: the
-/// velocity near the end depends on the final depth.
+/// velocity near the end depends on the final depth. At its old end the pile may go deeper.
 void PileJob::check_restart(const CaseFile& file, const Restart& restart) const
 {
   if (!Installation::is_in(restart.checkpoint.state)) return;
@@ -70,12 +71,28 @@ void PileJob::check_restart(const CaseFile& file, const Restart& restart) const
   if (!change) return;
   const Push push = Installation::push_in(restart.checkpoint.state);
   const double end = case_.travel();
+  if (push.is_over()) {
+    if (end > push.tip) return;
+    file.refuse("Pile", "final depth",
+                "was " + change->was +
+                    ", where the pile stands in the checkpoint: it can only go deeper. "
+                    "Raise it, or choose an older checkpoint");
+  }
   if (push.tip <= std::min(push.end, end) - PenetrationRate(case_).ramp()) return;
   file.refuse("Pile", "final depth",
               "was " + change->was + ", and in the checkpoint, with the tip at " +
                   mm(push.tip) +
                   ", the pile has begun to slow down for one of the two depths: "
-                  "restore it, or choose an older checkpoint");
+                  "restore it, and raise it when the run is finished; or choose an older "
+                  "checkpoint");
+}
+
+std::string PileJob::what_is_done(const Restart& restart) const
+{
+  if (!Installation::is_in(restart.checkpoint.state)) return "";
+  if (Installation::push_in(restart.checkpoint.state).tip < case_.travel()) return "";
+  return "the pile is at its final depth, " + mm(case_.final_depth) +
+         ". To push it further, restart with a larger `Pile/final depth`.";
 }
 
 void PileJob::make_installation()
@@ -119,6 +136,10 @@ void PileJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
   make_installation();
   if (!is_penetrating_) return;
   installation_->load(state);
+  if (const Push before = Installation::push_in(state);
+      before.is_over() && before.tip < case_.travel())
+    std::cout << "the pile starts again from rest, " << mm(before.tip - case_.cone_height())
+              << " deep: the curve is that of " << installation_->n_pushes() << " pushes\n";
   if (find_change(restart, "Output", "record every")) installation_->space_records_anew();
   if (find_change(restart, "Pile", "final depth") ||
       find_change(restart, "Output", "frames"))

@@ -55,6 +55,7 @@ void add_figures(Summary& s, const Installation& run, const CoupledSystem& coupl
   const BreakageCount& broken = run.breakage();
   s.number("depth [m]", r.depth);
   s.number("tip depth [m]", r.tip_depth);
+  s.count("pushes [-]", run.n_pushes());
   s.number("q_c [Pa]", r.q_c);
   s.number("largest q_c [Pa]", run.peak());
   s.number("tip force of the full pile [N]", r.F_tip);
@@ -93,8 +94,11 @@ void summarise(Summary& summary, const PileCase& c, const Installation& run,
   out.precision(4);
   out << "pile at " << 1e3 * r.depth << " mm (" << r.depth / c.diameter << " D_p): q_c "
       << 1e-6 * r.q_c << " MPa, largest " << 1e-6 * run.peak() << " MPa; tip " << r.F_tip
-      << " N, shaft " << r.F_shaft << " N (full pile)\n"
-      << "bonds broken: " << r.broken << " of " << run.n_bonds() << ", " << broken.all
+      << " N, shaft " << r.F_shaft << " N (full pile)\n";
+  if (run.n_pushes() > 1)
+    out << "the pile was pushed " << run.n_pushes()
+        << " times, and slowed down at the end of each push\n";
+  out << "bonds broken: " << r.broken << " of " << run.n_bonds() << ", " << broken.all
       << " of them between particles: " << percent(broken.near, broken.all)
       << " % within 2 D_p of the axis, " << broken.above
       << " more than D_p above the shoulder when they broke; " << n_debris

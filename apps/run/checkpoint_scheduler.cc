@@ -72,6 +72,9 @@ void declare(CaseFile& file, CheckpointKey& key)
       "checkpoint every", key.text,
       "Wall-clock time or steps between checkpoints (10 min, 5000 steps), or never; the "
       "last two are kept.");
+  file.flag("checkpoint at end", key.at_end,
+            "Write a checkpoint when the run is finished; --restart takes the run further "
+            "from it.");
 }
 
 void complete(const CaseFile& file, CheckpointKey& key)
@@ -148,6 +151,19 @@ void CheckpointScheduler::write_now(const dem::Communicator& comm, const Positio
   longest_ = n_written_ == 0 ? written_ - start : std::max(longest_, written_ - start);
   has_estimate_ = true;
   ++n_written_;
+}
+
+void CheckpointScheduler::at_end(const dem::Communicator& comm, Position at,
+                                 const std::function<void(dem::State&)>& save)
+{
+  at.phase = "finished";
+  try {
+    write_now(comm, at, save);
+  } catch (const CollectiveFailure& e) {
+    throw Remedied(std::string("the results are complete, but the run cannot be taken "
+                               "further from its end: ") +
+                   e.what());
+  }
 }
 
 std::string CheckpointScheduler::how_to_continue() const

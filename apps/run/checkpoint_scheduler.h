@@ -22,12 +22,13 @@ struct Cadence {
 /// "10 min", "5000 steps" or "never". @throws InputError with the expected form
 Cadence to_cadence(const std::string& text);
 
-/// Key `Output/checkpoint every`.
+/// Keys `Output/checkpoint every` and `checkpoint at end`.
 struct CheckpointKey {
   std::string text = "10 min";
-  Cadence every; ///< value of the text, set by complete()
+  Cadence every;      ///< value of the text, set by complete()
+  bool at_end = true; ///< write one when the run is finished
 };
-/// Declare the key in the open section. @pre file.section("Output") is open
+/// Declare the keys in the open section. @pre file.section("Output") is open
 void declare(CaseFile& file, CheckpointKey& key);
 /// @throws InputError naming file, line and key
 void complete(const CaseFile& file, CheckpointKey& key);
@@ -71,6 +72,11 @@ public:
   ///   when the checkpoint cannot be written, naming the last good one
   void after_step(const dem::Communicator& comm, const Position& at,
                   const std::function<void(dem::State&)>& save);
+
+  /// Write the checkpoint of a finished run, from which it can be taken further. Collective.
+  /// @throws CollectiveFailure when it cannot be written
+  void at_end(const dem::Communicator& comm, Position at,
+              const std::function<void(dem::State&)>& save);
 
   /// "; the last checkpoint is ..., continue with ...", for a message on a failure.
   std::string remedy() const;

@@ -30,8 +30,8 @@ namespace {
 std::vector<std::string> free_keys_of(const CheckpointedJob& job)
 {
   std::vector<std::string> keys = job.free_keys();
-  keys.insert(keys.end(),
-              {"Motion/time step safety", "Output/checkpoint every", "Specimen/file"});
+  keys.insert(keys.end(), {"Motion/time step safety", "Output/checkpoint every",
+                           "Output/checkpoint at end", "Specimen/file"});
   return keys;
 }
 
@@ -50,6 +50,28 @@ std::optional<Restart> read(CheckpointedJob& job, CaseFile& file, const JobOptio
   });
   require_same_case(file);
   return restart;
+}
+
+/// Whether a folder has the summary of a finished run.
+bool has_summary(const fs::path& folder)
+{
+  std::error_code error; // a summary that cannot be reached is written again
+  return fs::exists(folder / "summary.json", error);
+}
+
+/// What the finished run in `folder` has reached; "" where something is left to do.
+/// Collective.
+std::string what_is_done(const CheckpointedJob& job, const Restart& restart,
+                         const fs::path& folder)
+{
+  std::string done;
+  on_first_rank([&] {
+    std::error_code error; // another folder gets its own results
+    if (fs::equivalent(folder, restart.folder, error) && has_summary(folder))
+      done = job.what_is_done(restart);
+  });
+  share(done);
+  return done;
 }
 
 double seconds_in(const dem::State& state)
@@ -89,7 +111,14 @@ int run_job(CheckpointedJob& job, const JobOptions& options, MPI_Comm comm)
   std::optional<Restart> restart = read(job, file, options);
   const std::vector<fs::path> inputs = inputs_of(options, restart, job.inputs());
   OutputFolder output = folder_of(options, restart, inputs, std::move(lock));
-  if (restart) std::cout << report(*restart) << '\n';
+  if (restart) {
+    if (const std::string done = what_is_done(job, *restart, output.path());
+        !done.empty()) {
+      std::cout << output.path().string() << " holds the finished run: " << done << '\n';
+      return 0;
+    }
+    std::cout << report(*restart) << '\n';
+  }
 
   const double seconds_before = restart ? seconds_in(restart->checkpoint.state) : 0.0;
   RunFolder folder(output, inputs, file, restart ? &*restart : nullptr);
@@ -128,6 +157,7 @@ int run_job(CheckpointedJob& job, const JobOptions& options, MPI_Comm comm)
     scheduler.rethrow_with_remedy(
         [&](const std::string& failure) { summarise("failed.json", failure); });
   }
+  if (job.checkpoints().at_end) scheduler.at_end(all, job.position(), save);
   return 0;
 }
 

@@ -4,7 +4,7 @@
 /// A job derives from CheckpointedJob and says what it computes. run_job() calls it:
 ///
 ///     a new run            a restart
-///     declare, complete    declare, complete, check_restart
+///     declare, complete    declare, complete, check_restart, what_is_done
 ///     begin                resume
 ///     run                  run      between steps save, when a checkpoint is due
 ///     summarise            summarise      at the end, or when the run went unstable
@@ -83,6 +83,9 @@ public:
   /// Refuse a change of a free key that does not fit the checkpoint.
   /// @throws InputError naming file, line and key
   virtual void check_restart(const CaseFile& file, const Restart& restart) const = 0;
+  /// Where a checkpoint is the end of this case: what the run has reached, and how it is
+  /// taken further, in one line. "" where something is left to do. On the first rank.
+  virtual std::string what_is_done(const Restart& restart) const = 0;
 
   // --- its run -------------------------------------------------------------------------
   /// Make the system of a new run, call folder.prepare(), and begin its files.
@@ -109,7 +112,7 @@ void print_keys(CheckpointedJob& job, std::ostream& out);
 
 /// Run a job from its command line to its end, or until it is stopped (apps/run/README.md,
 /// Checkpoints and restart). Every job may change in a restart `Motion/time step safety`,
-/// `Output/checkpoint every` and `Specimen/file`.
+/// `Output/checkpoint every`, `Output/checkpoint at end` and `Specimen/file`.
 /// @param comm all ranks of the program
 /// @return the exit code
 /// @throws as begin(), resume() and run() do, with how to continue; see

@@ -41,6 +41,10 @@ public:
     if (n_in(restart) > static_cast<std::uint64_t>(last_))
       file.refuse("Count", "to", "the checkpoint is beyond it");
   }
+  std::string what_is_done(const Restart& restart) const override
+  {
+    return n_in(restart) == static_cast<std::uint64_t>(last_) ? "it has counted." : "";
+  }
   void begin(const CaseFile&, RunFolder& folder, MPI_Comm) override
   {
     folder.prepare();
@@ -133,6 +137,64 @@ std::vector<fs::path> checkpoints()
 }
 
 } // namespace
+
+TEST_CASE("A run ends with its summary and a checkpoint from which it goes further",
+          "[unit][apps]")
+{
+  const WorkingFolder here;
+  test::write("count.prm", "");
+  CHECK_THAT(count(begins({"Count/to=40"})), Contains("counted to 40"));
+  const std::string whole = content("out/history.csv");
+  fs::remove_all("out");
+
+  count(begins({"Count/to=30"}));
+  REQUIRE(checkpoints().size() == 1);
+  CHECK(dem::read_checkpoint(checkpoints().front()).label.phase == "finished");
+  CHECK(dem::read_checkpoint(checkpoints().front()).label.step == 30);
+  CHECK_THAT(content("out/summary.json"), Contains("\"n [-]\": 30,\n"));
+
+  CHECK_THAT(count(restarts({"Count/to=40"})),
+             Contains("restart from out/checkpoint_000000000030.h5: finished, step 30") &&
+                 Contains("Count/to was 30, is now 40"));
+  CHECK(content("out/history.csv") == whole);
+  CHECK_THAT(content("out/summary.json"), Contains("\"steps [-]\": 10\n"));
+  CHECK(checkpoints().size() == 2);
+}
+
+TEST_CASE("Restarting a finished run says what is done and changes nothing", "[unit][apps]")
+{
+  const WorkingFolder here;
+  test::write("count.prm", "");
+  count(begins());
+  const auto written = [] {
+    std::map<fs::path, fs::file_time_type> times;
+    for (const auto& entry : fs::directory_iterator("out"))
+      times[entry.path()] = entry.last_write_time();
+    return times;
+  };
+  const auto before = written();
+  CHECK(count(restarts()) == "out holds the finished run: it has counted.\n");
+  CHECK(written() == before);
+
+  // Killed before its summary, it is written again; another folder gets its own results.
+  fs::remove("out/summary.json");
+  CHECK_THAT(count(restarts()), Contains("counted to 30"));
+  CHECK(fs::exists("out/summary.json"));
+  JobOptions elsewhere = restarts();
+  elsewhere.output = "other";
+  CHECK_THAT(count(elsewhere), Contains("results: other"));
+  CHECK(content("other/history.csv") == content("out/history.csv"));
+}
+
+TEST_CASE("`checkpoint at end = false` leaves a finished run without a checkpoint",
+          "[unit][apps]")
+{
+  const WorkingFolder here;
+  test::write("count.prm", "subsection Output\n  set checkpoint at end = false\nend\n");
+  count(begins());
+  CHECK(checkpoints().empty());
+  CHECK_THROWS_WITH(count(restarts()), Contains("holds a finished run"));
+}
 
 TEST_CASE("SIGTERM stops a job behind a checkpoint, and the restart ends alike",
           "[unit][apps]")
