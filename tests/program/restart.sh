@@ -151,7 +151,7 @@ rm -rf g; cp -r b g
 "$mergel" pile --restart g >log_of_first 2>&1 &
 first=$!
 launched=$first
-wait_for exists "g/.mergel.lock"
+wait_for test -s "g/.mergel.lock" # it names the process that holds it
 kill -STOP $first
 [ "$(code_of pile --restart g)" -eq 1 ] || fail "two runs in a folder: $(cat log)"
 grep -q "output folder g: another run (process $first on .*) is writing there" log || fail "two runs in a folder: $(cat log)"
