@@ -12,9 +12,10 @@ void declare_far_field(CaseFile& file, CoupledCase& c)
 {
   const auto section = file.section("Far field");
   fem::FarFieldSpec& f = c.far_field;
+  using Model = coupling::FarFieldStructure::Model;
   file.choice("model", c.model,
-              std::vector<std::pair<std::string, FarFieldModel>>{
-                  {"elastic", FarFieldModel::elastic}, {"rigid", FarFieldModel::rigid}},
+              std::vector<std::pair<std::string, Model>>{{"elastic", Model::elastic},
+                                                         {"rigid", Model::rigid}},
               "Elastic solid, or the same walls held fixed.");
   file.quantity("chamber diameter", f.chamber_diameter, "m", positive,
                 "Outer diameter of the far field.", "mm");

@@ -2,7 +2,7 @@
 /// penetration rate, and records and frames are written.
 #pragma once
 
-#include "apps/coupled/coupled_system.h"
+#include "apps/coupled/system_of_case.h"
 #include "apps/pile/penetration_rate.h"
 #include "apps/pile/pile_output.h"
 
@@ -39,7 +39,7 @@ class Installation {
 public:
   /// All arguments must outlive the object.
   /// @param output null on all ranks but the first
-  Installation(const PileCase& c, CoupledSystem& coupled, PileOutput* output);
+  Installation(const PileCase& c, coupling::CoupledSystem& coupled, PileOutput* output);
 
   /// Whether the state was saved after the penetration began.
   static bool is_in(const dem::State& state) { return state.has("pile_numbers"); }
@@ -84,7 +84,7 @@ private:
   void count_bonds();
   void frame();
   void record();
-  PileRecord new_record(const CoupledSystem::EnergyBalances& energy_balances);
+  PileRecord new_record(const coupling::EnergyBalances& energy_balances);
   std::string now() const;
 
   /// Pointers to every number of a run, to save and load it; `self` may be const.
@@ -94,10 +94,10 @@ private:
   static auto counts_of(Self& self);
 
   const PileCase& case_;
-  CoupledSystem& coupled_;
+  coupling::CoupledSystem& coupled_;
   PileOutput* output_;
   PenetrationRate rate_;
-  CoupledSystem::EnergyBalances start_;
+  coupling::EnergyBalances start_;
   BreakageCount breakage_;
   MeanForce force_;
   PileRecord last_;

@@ -21,9 +21,9 @@ auto Installation::numbers_of(Self& self)
     all.insert(all.end(), {&e->kinetic, &e->bonds, &e->contacts, &e->walls, &e->mirror,
                            &e->gravity, &e->wall_work, &e->pile_work, &e->slip, &e->plastic,
                            &e->breakage_release, &e->rotation_constraint, &e->damping});
-  auto& f = self.start_.far_field;
-  all.insert(all.end(), {&f.kinetic, &f.strain, &f.interface_work, &f.gravity_work,
-                         &f.initial_stress_work, &f.damping});
+  auto& f = self.start_.structures;
+  all.insert(all.end(), {&f.kinetic, &f.strain, &f.wall_work, &f.gravity_work,
+                         &f.applied_work, &f.damping});
   return all;
 }
 

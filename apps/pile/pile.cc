@@ -94,17 +94,15 @@ int run_pile(const JobOptions& options)
     on_first_rank([&] { PileOutput::check(restart->folder, restart->checkpoint.state); });
 
   fem::FarField far_field = make_far_field(c.assembly);
-  coupling::Interface interface = coupling::make_interface(
-      far_field.interface(), c.assembly.interface, c.assembly.collar_height);
   std::optional<PileOutput> output;
-  std::optional<CoupledSystem> coupled;
+  std::optional<coupling::CoupledSystem> coupled;
   if (restart) {
     std::cout << far_field.summary() << '\n';
     dem::State& state = restart->checkpoint.state;
     std::vector<dem::PileWall> piles;
     if (Installation::is_in(state)) piles.push_back(make_pile(c));
-    coupled.emplace(c.assembly, state, std::move(piles), std::move(far_field),
-                    std::move(interface));
+    coupled.emplace(coupled_spec(c.assembly), structures(c.assembly, std::move(far_field)),
+                    state, std::move(piles), MPI_COMM_WORLD);
     if (has_changed(*restart, "Motion", "time step safety")) coupled->lower_time_step(true);
     on_first_rank([&] {
       prepare_continued_folder(folder, inputs, file, *restart);
@@ -122,7 +120,8 @@ int run_pile(const JobOptions& options)
       output.emplace(folder.path(), c);
     });
     require_shared(folder.path());
-    coupled.emplace(c.assembly, sample, std::move(far_field), std::move(interface));
+    coupled.emplace(coupled_spec(c.assembly), structures(c.assembly, std::move(far_field)),
+                    sample.packing.particles, sample.bonding, MPI_COMM_WORLD);
   }
 
   Installation run(c, *coupled, output ? &*output : nullptr);

@@ -84,13 +84,13 @@ void PileOutput::record(const PileRecord& r)
 }
 
 void PileOutput::frame(double time, const dem::Assembly& assembly,
-                       const CoupledSystem& coupled)
+                       const coupling::CoupledSystem& coupled)
 {
   dem::write_particles(frames_.file(0), assembly, coupled.x_0);
   dem::write_bonds(frames_.file(1), assembly);
   dem::write_pile(frames_.file(2), assembly.piles.front().pile, 2.0 * diameter_);
   dem::replace_file(frames_.file(3), [&](const std::filesystem::path& path) {
-    coupled.far_field.write_vtu(path);
+    far_field_of(coupled).write_vtu(path);
   });
   frames_.add(time);
 }

@@ -1,7 +1,7 @@
 /// Results of a pile run: history.csv and the frames for ParaView.
 #pragma once
 
-#include "apps/coupled/coupled_system.h"
+#include "apps/coupled/system_of_case.h"
 #include "apps/pile/pile_case.h"
 #include "apps/run/frames.h"
 #include "dem/io/history.h"
@@ -45,7 +45,8 @@ public:
   void record(const PileRecord& r);
   /// Particles, bonds, pile and far field at this time [s].
   /// @param assembly gathered: all particles
-  void frame(double time, const dem::Assembly& assembly, const CoupledSystem& coupled);
+  void frame(double time, const dem::Assembly& assembly,
+             const coupling::CoupledSystem& coupled);
 
 private:
   double diameter_;

@@ -27,11 +27,10 @@ struct Part {
 };
 
 /// Time of a step, and the parts of it in per cent.
-std::string time_by_parts(const CoupledSystem& coupled, const Work& work)
+std::string time_by_parts(const coupling::CoupledSystem& coupled, const Work& work)
 {
   const dem::StepTimes& t = coupled.assembly.times;
-  const double far = coupled.exchange.far_field_seconds,
-               ex = coupled.exchange.exchange_seconds;
+  const double far = coupled.structure_seconds(), ex = coupled.exchange_seconds();
   const double whole = t.total() + far + ex;
   std::ostringstream out;
   out.precision(3);
@@ -55,8 +54,8 @@ std::string time_by_parts(const CoupledSystem& coupled, const Work& work)
 } // namespace
 
 void write_summary(const std::filesystem::path& file, const Installation& run,
-                   const CoupledSystem& coupled, std::size_t n_debris, double seconds,
-                   const std::string& failure)
+                   const coupling::CoupledSystem& coupled, std::size_t n_debris,
+                   double seconds, const std::string& failure)
 {
   const PileRecord& r = run.last();
   const BreakageCount& broken = run.breakage();
@@ -85,7 +84,7 @@ void write_summary(const std::filesystem::path& file, const Installation& run,
   number("largest interface moment error [-]", run.worst_interface().moment);
   number("largest interface power error [-]", run.worst_interface().power);
   number("particles [-]", count(coupled.assembly.particles.size()));
-  number("far-field cells [-]", count(coupled.far_field.n_cells()));
+  number("far-field cells [-]", count(far_field_of(coupled).n_cells()));
   number("steps [-]", count(coupled.n_steps));
   number("time step [s]", coupled.dt);
   number("wall-clock time [s]", seconds, "\n");
@@ -94,7 +93,7 @@ void write_summary(const std::filesystem::path& file, const Installation& run,
 }
 
 void print_summary(const std::filesystem::path& folder, const PileCase& c,
-                   const Installation& run, const CoupledSystem& coupled,
+                   const Installation& run, const coupling::CoupledSystem& coupled,
                    std::size_t n_debris, const Work& work)
 {
   const PileRecord& r = run.last();

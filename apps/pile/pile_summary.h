@@ -21,11 +21,11 @@ struct Work {
 /// @param failure message of the failure that ended the run, or empty
 /// @throws NumericalError when it cannot be written
 void write_summary(const std::filesystem::path& file, const Installation& run,
-                   const CoupledSystem& coupled, std::size_t n_debris, double seconds,
-                   const std::string& failure);
+                   const coupling::CoupledSystem& coupled, std::size_t n_debris,
+                   double seconds, const std::string& failure);
 
 void print_summary(const std::filesystem::path& folder, const PileCase& c,
-                   const Installation& run, const CoupledSystem& coupled,
+                   const Installation& run, const coupling::CoupledSystem& coupled,
                    std::size_t n_debris, const Work& work);
 
 } // namespace mergel::apps

@@ -1,6 +1,6 @@
 /// mergel sample: makes a specimen and writes it to a file that later runs read.
 #include "apps/case/case_scan.h"
-#include "apps/coupled/coupled_system.h"
+#include "apps/coupled/system_of_case.h"
 #include "apps/pile/pile_case.h"
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"

@@ -1,5 +1,4 @@
 #include "apps/pile/pile_case.h"
-#include "apps/coupled/coupled_system.h"
 #include "tests/support/repository.h"
 
 #include <catch2/catch.hpp>
