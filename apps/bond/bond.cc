@@ -4,6 +4,7 @@
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
 #include "apps/run/restart.h"
+#include "apps/run/results.h"
 #include "dem/element/controlled_pair.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"
@@ -203,6 +204,9 @@ public:
     energy_error_ = std::max(energy_error_, error);
     ++n_records;
   }
+  /// @throws NumericalError when another program has touched the history
+  void require_in_place() const { history_.require_in_place(); }
+
   /// Largest |work - stored - dissipated| over the largest stored or dissipated energy [-].
   double energy_error() const
   {
@@ -310,6 +314,8 @@ void load_bond(const JobOptions& options)
     }
   }
   write_summary(folder.path() / "summary.json", law, record, pair);
+  record.require_in_place();
+  require_results(folder.path(), "bond");
   print_summary(folder.path(), record);
 }
 

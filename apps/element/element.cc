@@ -8,6 +8,7 @@
 #include "apps/run/progress.h"
 #include "apps/run/ranks.h"
 #include "apps/run/restart.h"
+#include "apps/run/results.h"
 #include "apps/run/shared_folder.h"
 #include "dem/timer.h"
 
@@ -44,6 +45,10 @@ struct Test {
     records.push_back(r);
     on_first_rank([&] { history->add(r); });
   }
+  void require_in_place() const
+  {
+    on_first_rank([&] { history->require_in_place(); });
+  }
 };
 
 /// Run one stage to its end, from its start or, if `is_under_way`, from the present state.
@@ -62,7 +67,7 @@ dem::Outcome follow(Test& test, const std::string& name, bool is_under_way,
     const bool begins = approached && !run.is_approaching();
     if (outcome != dem::Outcome::goes_on || run.record_is_due() || begins)
       test.add(run.record());
-    test.pictures->update(outcome != dem::Outcome::goes_on);
+    if (test.pictures->update(outcome != dem::Outcome::goes_on)) test.require_in_place();
     if (outcome != dem::Outcome::goes_on) {
       progress.done(words(test.records.back()));
       return outcome;
@@ -272,16 +277,20 @@ int run_element(const JobOptions& options)
       const ElementSummary s =
           summary_of(c, *test.run, test.outcomes, test.records, seconds());
       write_summary(folder.path() / name, c, s, failure);
+      if (failure.empty()) {
+        test.history->require_in_place();
+        require_results(folder.path(), "element");
+      }
       print_summary(folder.path() / name, s);
     });
   };
   try {
     follow_all(test, c, is_under_way, after_step);
+    close("summary.json", "");
   } catch (...) {
     scheduler.rethrow_with_remedy(
         [&](const std::string& failure) { close("failed.json", failure); });
   }
-  close("summary.json", "");
   return 0;
 }
 

@@ -26,6 +26,8 @@ public:
   static void check(const std::filesystem::path& file, const dem::State& state);
 
   void add(const dem::ElementRecord& r);
+  /// @throws NumericalError when another program has touched the file
+  void require_in_place() const { history_.require_in_place(); }
 
 private:
   dem::History history_;

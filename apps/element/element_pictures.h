@@ -27,8 +27,8 @@ public:
                   const dem::State& state);
 
   /// Take a picture where one is due: at the end of a stage, or after an edge was strained
-  /// by `picture every`.
-  void update(bool stage_ends);
+  /// by `picture every`. @return whether one was taken
+  bool update(bool stage_ends);
 
   void save(dem::State& state) const;
   /// @throws InputError when the files of `folder` do not go as far as `state` says

@@ -9,6 +9,7 @@
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
+#include "apps/run/results.h"
 #include "dem/io/sample_file.h"
 #include "dem/io/state/checkpoint.h"
 #include "dem/io/table.h"
@@ -115,10 +116,11 @@ std::optional<std::string> failure_in(const fs::path& folder)
   }
 }
 
-std::string state_of(const fs::path& folder)
+std::string state_of(const fs::path& folder, bool is_complete)
 {
   if (const auto failure = failure_in(folder)) return "failed: " + *failure;
-  return fs::exists(folder / "summary.json") ? "finished" : "not finished";
+  if (!fs::exists(folder / "summary.json")) return "not finished";
+  return is_complete ? "finished" : "incomplete";
 }
 
 /// Whether a VTK file has its closing tag.
@@ -157,7 +159,10 @@ public:
   /// False when a file in it cannot be used.
   bool print()
   {
-    std::cout << folder_.string() << ": results folder, " << state_of(folder_) << '\n';
+    const std::vector<std::string> missing = missing_files();
+    std::cout << folder_.string() << ": results folder, "
+              << state_of(folder_, missing.empty()) << '\n';
+    for (const std::string& name : missing) judge("missing", name, "");
     if (const std::string holder = FolderLock::holder(folder_); !holder.empty())
       line("now", holder + " is writing there");
     describe_case();
@@ -175,6 +180,16 @@ private:
   {
     is_good_ = is_good_ && wrong.empty();
     line(name, wrong.empty() ? good : wrong);
+  }
+
+  std::vector<std::string> missing_files() const
+  {
+    const bool is_finished = has("summary.json");
+    if (!is_finished && !has("failed.json") && own_.frames.empty() &&
+        dem::checkpoints_in(folder_).empty())
+      return {}; // a run that was ended while it began
+    return missing_results(folder_, job_of(folder_),
+                           is_finished ? Extent::finished : Extent::begun);
   }
 
   void describe_case()

@@ -6,6 +6,7 @@
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
 #include "apps/run/restart.h"
+#include "apps/run/results.h"
 #include "apps/run/shared_folder.h"
 #include "apps/specimen/specimen.h"
 #include "dem/io/atomic_file.h"
@@ -150,17 +151,22 @@ int run_pile(const JobOptions& options)
         });
   };
   const auto summarise = [&](const char* name, const std::string& failure) {
-    const std::size_t n_debris = count_debris(coupled->assembly, c.assembly.collar_height);
-    on_first_rank([&] {
-      write_summary(folder.path() / name, run, *coupled, n_debris, seconds(), failure);
-    });
-    return n_debris;
+    const std::size_t n = count_debris(coupled->assembly, c.assembly.collar_height);
+    on_first_rank(
+        [&] { write_summary(folder.path() / name, run, *coupled, n, seconds(), failure); });
+    return n;
   };
+  std::size_t n_debris = 0;
   try {
     equilibrate(*coupled, c.assembly.unbalanced_tolerance, 200'000, after_step);
     if (!is_penetrating) run.begin();
     is_penetrating = true;
     run.run(after_step);
+    n_debris = summarise("summary.json", "");
+    on_first_rank([&] {
+      output->require_in_place();
+      require_results(folder.path(), "pile");
+    });
   } catch (...) {
     scheduler.rethrow_with_remedy([&](const std::string& failure) {
       if (is_penetrating) {
@@ -173,7 +179,6 @@ int run_pile(const JobOptions& options)
       });
     });
   }
-  const std::size_t n_debris = summarise("summary.json", "");
   print_summary(folder.path(), c, run, *coupled, n_debris,
                 {coupled->n_steps - before.n_steps, seconds()});
   return 0;

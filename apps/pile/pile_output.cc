@@ -86,6 +86,7 @@ void PileOutput::record(const PileRecord& r)
 void PileOutput::frame(double time, const dem::Assembly& assembly,
                        const CoupledSystem& coupled)
 {
+  require_in_place();
   dem::write_particles(frames_.file(0), assembly, coupled.x_0);
   dem::write_bonds(frames_.file(1), assembly);
   dem::write_pile(frames_.file(2), assembly.piles.front().pile, 2.0 * diameter_);

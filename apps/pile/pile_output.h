@@ -43,6 +43,8 @@ public:
   static void check(const std::filesystem::path& folder, const dem::State& state);
 
   void record(const PileRecord& r);
+  /// @throws NumericalError when another program has touched the history
+  void require_in_place() const { history_.require_in_place(); }
   /// Particles, bonds, pile and far field at this time [s].
   /// @param assembly gathered: all particles
   void frame(double time, const dem::Assembly& assembly, const CoupledSystem& coupled);

@@ -6,6 +6,7 @@
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
 #include "apps/run/restart.h"
+#include "apps/run/results.h"
 #include "apps/specimen/specimen.h"
 #include "dem/io/assembly_fields.h"
 #include "dem/io/atomic_file.h"
@@ -66,9 +67,9 @@ void write_pictures(const std::filesystem::path& folder, const dem::Assembly& as
   std::vector<dem::Vec3> x;
   for (const dem::ParticleState& b : assembly.particles.state) x.push_back(b.x);
   dem::write_particles(folder / "fields/particles_0000.vtp", assembly, x);
-  dem::Series(folder / "particles.pvd").add(0.0, "fields/particles_0000.vtp");
+  dem::Series(folder / "particles.pvd").add(0.0, folder / "fields/particles_0000.vtp");
   dem::write_bonds(folder / "fields/bonds_0000.vtp", assembly);
-  dem::Series(folder / "bonds.pvd").add(0.0, "fields/bonds_0000.vtp");
+  dem::Series(folder / "bonds.pvd").add(0.0, folder / "fields/bonds_0000.vtp");
 }
 
 void refuse_sample(const CaseFile& file, const SpecimenKeys& k)
@@ -91,6 +92,7 @@ void make(const CaseFile& file, const SpecimenKeys& k, OutputFolder& folder,
     dem::write_sample(path, sample);
     write_pictures(folder.path(), as_assembly(k, sample));
     dem::replace_file(folder.path() / "summary.json", summary(k, sample));
+    require_results(folder.path(), "sample");
   });
   std::cout << "specimen: " << path.string()
             << "\nuse it with --set \"Specimen/file=" << path.string() << "\"\n";

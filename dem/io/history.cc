@@ -7,9 +7,12 @@
 
 #include <cerrno>
 #include <cmath>
+#include <fstream>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace mergel::dem {
@@ -45,7 +48,7 @@ void check_history(const std::filesystem::path& file, const HistoryMark& mark)
 History::History(std::filesystem::path file, const std::vector<std::string>& columns)
     : file_(std::move(file)), columns_(columns)
 {
-  open(std::ios::trunc);
+  open(O_CREAT | O_TRUNC);
   mark_.sum = fnv_1a("");
   std::string header;
   for (std::size_t c = 0; c < columns_.size(); ++c)
@@ -58,29 +61,61 @@ History::History(std::filesystem::path file, const std::vector<std::string>& col
     : file_(std::move(file)), columns_(columns), mark_(mark)
 {
   replace_file(file_, begun(earlier, mark));
-  open(std::ios::app);
+  open(0);
 }
 
-void History::open(std::ios::openmode mode)
+History::~History()
 {
-  errno = 0; // some failures of a stream do not set it
-  out_.open(file_, std::ios::binary | std::ios::out | mode);
-  if (out_) return;
-  const std::string reason = errno == 0 ? "" : std::generic_category().message(errno);
-  throw NumericalError(file_.string() + ": cannot be written" +
-                       (reason.empty() ? "" : ": " + reason) +
+  if (number_ >= 0) ::close(number_);
+}
+
+History::History(History&& other) noexcept
+    : file_(std::move(other.file_)), columns_(std::move(other.columns_)),
+      number_(std::exchange(other.number_, -1)), mark_(other.mark_)
+{
+}
+
+void History::open(int flags)
+{
+  number_ = ::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | flags, 0666);
+  if (number_ >= 0) return;
+  throw NumericalError(file_.string() +
+                       ": cannot be written: " + std::generic_category().message(errno) +
                        ". Check that the folder exists and its permissions.");
 }
 
 void History::write(const std::string& line)
 {
   const std::string text = line + '\n';
-  out_ << text << std::flush;
-  if (!out_)
-    throw NumericalError(file_.string() +
-                         ": cannot be written any further; is the disk full?");
+  for (std::string_view rest = text; !rest.empty();) {
+    const ssize_t written = ::write(number_, rest.data(), rest.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0)
+      throw NumericalError(file_.string() + ": cannot be written any further: " +
+                           std::generic_category().message(errno));
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
   mark_.bytes += text.size();
   mark_.sum = fnv_1a(text, mark_.sum);
+  require_in_place();
+}
+
+void History::require_in_place() const
+{
+  struct stat mine = {}, there = {};
+  if (::fstat(number_, &mine) != 0 || ::stat(file_.c_str(), &there) != 0)
+    throw NumericalError(
+        file_.string() + ": was removed, renamed or moved while the run wrote it (" +
+        std::generic_category().message(errno) + "): the records that it held are lost");
+  if (mine.st_dev != there.st_dev || mine.st_ino != there.st_ino)
+    throw NumericalError(
+        file_.string() +
+        ": was replaced by another file while the run wrote it, as an editor does that "
+        "saves it: the records since then are lost");
+  if (static_cast<std::uint64_t>(mine.st_size) != mark_.bytes)
+    throw NumericalError(file_.string() + ": has " + std::to_string(mine.st_size) +
+                         " bytes where the run wrote " + std::to_string(mark_.bytes) +
+                         ": another program has changed it, and its records are lost");
 }
 
 void History::add(const std::vector<double>& values)
@@ -97,12 +132,10 @@ void History::add(const std::vector<double>& values)
 
 HistoryMark History::mark() const
 {
-  const int number = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool failed = number < 0 || (::fsync(number) != 0 && errno != EINVAL);
-  const std::string reason = std::generic_category().message(errno);
-  if (number >= 0) ::close(number);
-  if (failed)
-    throw NumericalError(file_.string() + ": cannot be flushed to the disk: " + reason);
+  require_in_place();
+  if (::fsync(number_) != 0 && errno != EINVAL)
+    throw NumericalError(file_.string() + ": cannot be flushed to the disk: " +
+                         std::generic_category().message(errno));
   return mark_;
 }
 

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -25,22 +24,31 @@ public:
   /// @throws InputError when `earlier` differs before the mark
   History(std::filesystem::path file, const std::vector<std::string>& columns,
           const std::filesystem::path& earlier, const HistoryMark& mark);
+  ~History();
+  History(History&& other) noexcept;
+  History(const History&) = delete;
+  History& operator=(const History&) = delete;
 
   /// One value per column; shortest text that reads back to the same bits.
-  /// @throws NumericalError for a value that is not finite, naming its column, or when
-  ///   the disk is full
+  /// @throws NumericalError for a value that is not finite, naming its column, when the
+  ///   disk is full, or as require_in_place()
   void add(const std::vector<double>& values);
 
   /// Flush all lines to the disk and return the position.
+  /// @throws NumericalError as require_in_place()
   HistoryMark mark() const;
 
+  /// Compare the file of this name with the one that is written: device, inode and size.
+  /// @throws NumericalError when it was removed, replaced or changed meanwhile
+  void require_in_place() const;
+
 private:
-  void open(std::ios::openmode mode);
+  void open(int flags);
   void write(const std::string& line);
 
   std::filesystem::path file_;
   std::vector<std::string> columns_;
-  std::ofstream out_;
+  int number_ = -1; ///< of the open file
   HistoryMark mark_;
 };
 
