@@ -89,10 +89,9 @@ CheckpointScheduler::CheckpointScheduler(CheckpointSchedule spec)
 {
 }
 
-CheckpointScheduler::Wish CheckpointScheduler::wish_here(const dem::Communicator& comm,
-                                                         const Position& at)
+int CheckpointScheduler::wish_here(const dem::Communicator& comm, const Position& at)
 {
-  if (signals_.wants_stop()) return stop;
+  if (const int signal = signals_.stop(); signal != 0) return stop + signal;
   const double now = spec_.clock();
   between_ = std::max(between_, now - asked_);
   asked_ = now;
@@ -115,13 +114,13 @@ void CheckpointScheduler::after_step(const dem::Communicator& comm, const Positi
     longest_ = n_bytes(mine, comm) / lowest_rate;
     has_estimate_ = true;
   }
-  const auto wish = static_cast<Wish>(
-      static_cast<int>(comm.global_max(static_cast<double>(wish_here(comm, at)))));
+  const int wish =
+      static_cast<int>(comm.global_max(static_cast<double>(wish_here(comm, at))));
   if (wish == none) return;
   write_now(comm, at, save);
   if (wish == write) return;
-  throw Stopped(std::string(wish == stop ? "stopped by SIGTERM"
-                                         : "stopped before the end of --walltime") +
+  throw Stopped((wish > stop ? "stopped by " + name_of_signal(wish - stop)
+                             : "stopped before the end of --walltime") +
                 " at step " + std::to_string(at.step) + ", t = " + dem::shortest(at.time) +
                 " s (" + at.phase + "), checkpoint " + last_.string() + ". " +
                 how_to_continue());

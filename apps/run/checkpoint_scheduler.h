@@ -64,10 +64,11 @@ public:
   };
 
   /// Call between steps, on all ranks. Writes a checkpoint when one is due: by time or
-  /// steps, after a rank received SIGUSR1 or SIGTERM, and before the walltime is over. The
+  /// steps, after a rank received a signal of Signals, and before the walltime is over. The
   /// results of the run do not depend on it, bit for bit.
   /// @param save adds the state of the run, each rank its part; collective
-  /// @throws Stopped after SIGTERM and before the end of the walltime; CollectiveFailure
+  /// @throws Stopped after SIGTERM, SIGINT or SIGHUP and before the end of the walltime;
+  ///   CollectiveFailure
   ///   when the checkpoint cannot be written, naming the last good one
   void after_step(const dem::Communicator& comm, const Position& at,
                   const std::function<void(dem::State&)>& save);
@@ -87,8 +88,9 @@ public:
   std::size_t n_written() const { return n_written_; }
 
 private:
+  /// In the order of their weight; stop + the number of the signal.
   enum Wish : int { none, write, stop_in_time, stop };
-  Wish wish_here(const dem::Communicator& comm, const Position& at);
+  int wish_here(const dem::Communicator& comm, const Position& at);
   void write_now(const dem::Communicator& comm, const Position& at,
                  const std::function<void(dem::State&)>& save);
   std::string how_to_continue() const;

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -346,6 +347,7 @@ void draw(const Options& options)
 
 int main(int argc, char** argv)
 {
+  std::signal(SIGPIPE, SIG_IGN); // all pictures are made, read or not what is printed
   Options options;
   std::string size_text = "1600x1200";
   CLI::App app(
