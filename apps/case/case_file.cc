@@ -82,6 +82,15 @@ void CaseFile::former_section(const std::string& former, const std::string& sect
   impl_->former_sections[former] = section;
 }
 
+void CaseFile::identified_by(const std::string& sum, const std::vector<std::string>& keys)
+{
+  for (const std::string& name : keys) {
+    const auto found = impl_->find_all(impl_->open_section, name);
+    if (found.empty()) throw std::logic_error("CaseFile: no key " + name + " to identify");
+    for (CaseKey* key : found) key->sum = sum;
+  }
+}
+
 void CaseFile::quantity(const std::string& key, double& target, const std::string& si_unit,
                         const Range& range, const std::string& sentence,
                         const std::string& shown_unit)

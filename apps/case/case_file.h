@@ -85,6 +85,10 @@ public:
   /// The same for a section.
   void former_section(const std::string& former, const std::string& section);
 
+  /// Where two cases have the text key `sum` of the open section, it alone tells whether they
+  /// differ in these keys of it: a path is no identity where the content is known.
+  void identified_by(const std::string& sum, const std::vector<std::string>& keys);
+
   /// A number with a unit. `target` is in `si_unit`, a coherent SI unit ("Pa", "m", "rad"),
   /// and so are the bounds of `range`; help and resolved case use `shown_unit` ("mm").
   void quantity(const std::string& key, double& target, const std::string& si_unit,
@@ -155,10 +159,20 @@ public:
   void read(const std::filesystem::path& path,
             const std::vector<std::string>& overrides = {});
 
-  /// The same from the text of a resolved case instead of a file.
+  /// The same from the text of a resolved case instead of a file, which is continued.
   /// @param name of the text in messages
   void read_text(const std::string& text, const std::string& name,
                  const std::vector<std::string>& overrides = {});
+
+  /// Say that the case to be read is that of a run that is continued: what the earlier
+  /// resolved case holds of the content of files need not be read again.
+  void continue_from(const std::string& earlier_resolved_text);
+  bool is_continued() const;
+  /// Value of a key in the earlier case; "" without one. @pre is_continued()
+  std::string earlier_value(const std::string& section, const std::string& key) const;
+
+  /// Whether the key was given by --set. @pre read() was called
+  bool is_override(const std::string& section, const std::string& key) const;
 
   /// Where the value of a key comes from, for checks that span several keys:
   /// "pile.prm:14: Pile/diameter", "--set Pile/diameter", or, for the default,

@@ -30,6 +30,7 @@ struct CaseKey {
   std::string value = {}, resolved = {}; ///< as given, and for write_resolved()
   int line = 0;                          ///< in the case file; 0 if not there
   bool is_override = false;              ///< from --set
+  std::string sum = {}; ///< key of its section that tells its content; may be empty
 };
 
 /// What a CaseFile holds.
@@ -43,6 +44,8 @@ struct CaseFile::Impl {
   std::string open_choice;              ///< of the open condition
   std::vector<std::string> open_values; ///< of the open condition
   bool is_read = false;
+  bool is_continued = false;
+  std::vector<CaseEntry> earlier; ///< of the run that is continued
   std::string file_name;
   std::map<std::string, int> section_lines;
 

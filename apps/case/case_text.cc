@@ -44,6 +44,16 @@ CaseFile::changes_since(const std::string& earlier_resolved_text) const
 {
   if (!impl_->is_read) throw std::logic_error("CaseFile: no case has been read");
   std::vector<CaseEntry> earlier = scan_case(earlier_resolved_text, "earlier case").entries;
+  const auto earlier_value = [entries = earlier](const std::string& section,
+                                                 const std::string& key) {
+    for (const CaseEntry& e : entries)
+      if (e.section == section && e.key == key) return e.value;
+    return std::string();
+  };
+  const auto is_told_by_sum = [&](const CaseKey& key) {
+    return !key.sum.empty() && !impl_->at(key.section, key.sum).resolved.empty() &&
+           !earlier_value(key.section, key.sum).empty();
+  };
   std::vector<Change> changes;
   for (const CaseKey& key : impl_->keys) {
     if (!key.is_active) continue;
@@ -51,7 +61,7 @@ CaseFile::changes_since(const std::string& earlier_resolved_text) const
       return e.section == key.section && e.key == key.name;
     });
     const std::string was = same == earlier.end() ? "" : same->value;
-    if (was != key.resolved || same == earlier.end())
+    if ((was != key.resolved || same == earlier.end()) && !is_told_by_sum(key))
       changes.push_back({key.section, key.name, was, key.resolved});
     if (same != earlier.end()) earlier.erase(same);
   }

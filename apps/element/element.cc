@@ -242,8 +242,9 @@ int run_element(const JobOptions& options)
   OutputFolder folder = folder_of(options, restart, inputs, std::move(lock));
   if (restart)
     on_first_rank([&] {
-      ElementHistory::check(restart->folder / "history.csv", restart->checkpoint.state);
-      ElementPictures::check(restart->folder, restart->checkpoint.state);
+      const dem::State& state = restart->checkpoint.state;
+      std::cout << ElementHistory::check(restart->folder / "history.csv", state)
+                << ElementPictures::check(restart->folder, state);
     });
 
   Test test;

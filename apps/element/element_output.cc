@@ -2,6 +2,7 @@
 
 #include "apps/case/words.h"
 #include "apps/run/progress.h"
+#include "apps/run/restart.h"
 #include "dem/io/atomic_file.h"
 #include "dem/text.h"
 
@@ -105,9 +106,10 @@ void ElementHistory::save(dem::State& state, const ElementHistory* history)
   state.add_common<std::uint64_t>("output_history", {mark.bytes, mark.sum});
 }
 
-void ElementHistory::check(const std::filesystem::path& file, const dem::State& state)
+std::string ElementHistory::check(const std::filesystem::path& file,
+                                  const dem::State& state)
 {
-  dem::check_history(file, mark_in(state));
+  return report_on_history(file, mark_in(state));
 }
 
 void ElementHistory::add(const dem::ElementRecord& r)

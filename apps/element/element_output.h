@@ -22,8 +22,9 @@ public:
                  const dem::State& state);
   /// Add its length and checksum. @param history null on all ranks but the first
   static void save(dem::State& state, const ElementHistory* history);
+  /// A line on a history that is missing; "" where it is there.
   /// @throws InputError when `file` does not begin with the bytes that `state` records
-  static void check(const std::filesystem::path& file, const dem::State& state);
+  static std::string check(const std::filesystem::path& file, const dem::State& state);
 
   void add(const dem::ElementRecord& r);
   /// @throws NumericalError when another program has touched the file

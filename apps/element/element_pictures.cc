@@ -58,9 +58,10 @@ void ElementPictures::save(dem::State& state) const
   Frames::save(state, frames_ ? &*frames_ : nullptr);
 }
 
-void ElementPictures::check(const std::filesystem::path& folder, const dem::State& state)
+std::string ElementPictures::check(const std::filesystem::path& folder,
+                                   const dem::State& state)
 {
-  Frames::check(folder, kinds, state);
+  return Frames::check(folder, kinds, state);
 }
 
 bool ElementPictures::update(bool stage_ends)

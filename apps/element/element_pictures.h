@@ -31,8 +31,8 @@ public:
   bool update(bool stage_ends);
 
   void save(dem::State& state) const;
-  /// @throws InputError when the files of `folder` do not go as far as `state` says
-  static void check(const std::filesystem::path& folder, const dem::State& state);
+  /// A line on pictures before `state` that `folder` lacks; "" when it lacks none.
+  static std::string check(const std::filesystem::path& folder, const dem::State& state);
 
 private:
   void take_picture();

@@ -23,6 +23,7 @@
 #include <iostream>
 #include <iterator>
 #include <optional>
+#include <sstream>
 
 namespace mergel::apps {
 
@@ -135,13 +136,14 @@ bool is_whole_vtk(const fs::path& file)
   return tail.find(end) != std::string::npos;
 }
 
-/// Check the results that a restart from this checkpoint needs. @throws InputError
-void check_results(const fs::path& folder, const dem::Checkpoint& c)
+/// Lines on results before this checkpoint that the folder lacks.
+/// @throws InputError when its history is another one
+std::string lacks_before(const fs::path& folder, const dem::Checkpoint& c)
 {
-  if (c.label.job == "pile") PileOutput::check(folder, c.state);
-  if (c.label.job != "element") return;
-  ElementHistory::check(folder / "history.csv", c.state);
-  ElementPictures::check(folder, c.state);
+  if (c.label.job == "pile") return PileOutput::check(folder, c.state);
+  if (c.label.job != "element") return "";
+  return ElementHistory::check(folder / "history.csv", c.state) +
+         ElementPictures::check(folder, c.state);
 }
 
 /// The report on a results folder.
@@ -267,10 +269,14 @@ private:
                 ", t = " + dem::shortest(1e3 * c.label.time) + " ms, mergel " +
                 c.label.program + ", good");
       if (!wrong.empty()) continue;
-      if (is_newest)
-        if (const std::string lacks = fault([&] { check_results(folder_, c); });
-            !lacks.empty())
-          judge("restart", lacks, "");
+      if (is_newest) {
+        std::string lacks;
+        if (const std::string other = fault([&] { lacks = lacks_before(folder_, c); });
+            !other.empty())
+          judge("restart", other, "");
+        std::istringstream lines(lacks);
+        for (std::string text; std::getline(lines, text);) line("restart", text);
+      }
       is_newest = false;
     }
     if (!has_any) line("checkpoints", "none");

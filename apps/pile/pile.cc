@@ -92,7 +92,9 @@ int run_pile(const JobOptions& options)
   const auto inputs = inputs_of(options, restart, {c.assembly.sample, c.assembly.table});
   OutputFolder folder = folder_of(options, restart, inputs, std::move(lock));
   if (restart)
-    on_first_rank([&] { PileOutput::check(restart->folder, restart->checkpoint.state); });
+    on_first_rank([&] {
+      std::cout << PileOutput::check(restart->folder, restart->checkpoint.state);
+    });
 
   fem::FarField far_field = make_far_field(c.assembly);
   coupling::Interface interface = coupling::make_interface(

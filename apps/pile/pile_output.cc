@@ -1,5 +1,6 @@
 #include "apps/pile/pile_output.h"
 
+#include "apps/run/restart.h"
 #include "dem/error.h"
 #include "dem/io/assembly_fields.h"
 #include "dem/io/atomic_file.h"
@@ -67,10 +68,10 @@ void PileOutput::save(dem::State& state, const PileOutput* output)
   Frames::save(state, output ? &output->frames_ : nullptr);
 }
 
-void PileOutput::check(const std::filesystem::path& folder, const dem::State& state)
+std::string PileOutput::check(const std::filesystem::path& folder, const dem::State& state)
 {
-  dem::check_history(folder / "history.csv", mark_in(state));
-  Frames::check(folder, kinds, state);
+  return report_on_history(folder / "history.csv", mark_in(state)) +
+         Frames::check(folder, kinds, state);
 }
 
 void PileOutput::record(const PileRecord& r)

@@ -169,6 +169,12 @@ void check_case(const CaseFile& file, Restart& restart,
   }
 }
 
+std::string report_on_history(const fs::path& file, const dem::HistoryMark& mark)
+{
+  if (dem::check_history(file, mark)) return "";
+  return file.string() + ": is missing, and begins at the checkpoint\n";
+}
+
 bool has_changed(const Restart& restart, const std::string& section, const std::string& key)
 {
   return std::any_of(

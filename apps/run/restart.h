@@ -7,6 +7,7 @@
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
 #include "apps/run/same_input.h"
+#include "dem/io/history.h"
 #include "dem/io/state/checkpoint.h"
 
 #include <optional>
@@ -65,6 +66,7 @@ std::optional<Restart> resume(CaseFile& file, Case& c, const JobOptions& options
 {
   std::optional<Restart> restart = find_restart(options.restart, job);
   declare(file, c);
+  if (restart) file.continue_from(restart->checkpoint.label.case_text);
   on_every_rank([&] {
     read_case(file, options, restart);
     complete(file, c);
@@ -104,6 +106,11 @@ std::filesystem::path checkpoint_in(const std::filesystem::path& folder,
 void prepare_continued_folder(OutputFolder& folder,
                               const std::vector<std::filesystem::path>& inputs,
                               const CaseFile& file, const Restart& restart);
+
+/// A line on a history that is missing beside its checkpoint; "" where it is there.
+/// @throws InputError when it differs before the mark
+std::string report_on_history(const std::filesystem::path& file,
+                              const dem::HistoryMark& mark);
 
 /// Whether the case of the continued run has another value for this key.
 bool has_changed(const Restart& restart, const std::string& section,

@@ -32,24 +32,38 @@ std::string begun(const std::filesystem::path& file, const HistoryMark& mark)
   }
   require(in.good() && text.size() == mark.bytes && fnv_1a(text) == mark.sum,
           file.string() +
-              (size < 0 ? ": is missing"
-                        : ": does not begin as it did when the checkpoint was written") +
-              ", so it cannot be continued. Put it back beside the checkpoint.");
+              ": does not begin as it did when the checkpoint was written, so it cannot be "
+              "continued. Put back what it was, or move it away: the history then begins "
+              "at the checkpoint.");
   return text;
+}
+
+bool is_missing(const std::filesystem::path& file)
+{
+  std::error_code error; // a file that cannot be reached is refused where it is read
+  return std::filesystem::status(file, error).type() ==
+         std::filesystem::file_type::not_found;
 }
 
 } // namespace
 
-void check_history(const std::filesystem::path& file, const HistoryMark& mark)
+bool check_history(const std::filesystem::path& file, const HistoryMark& mark)
 {
+  if (is_missing(file)) return false;
   begun(file, mark);
+  return true;
 }
 
 History::History(std::filesystem::path file, const std::vector<std::string>& columns)
     : file_(std::move(file)), columns_(columns)
 {
+  begin();
+}
+
+void History::begin()
+{
   open(O_CREAT | O_TRUNC);
-  mark_.sum = fnv_1a("");
+  mark_ = {0, fnv_1a("")};
   std::string header;
   for (std::size_t c = 0; c < columns_.size(); ++c)
     header += (c == 0 ? "" : ",") + columns_[c];
@@ -60,6 +74,10 @@ History::History(std::filesystem::path file, const std::vector<std::string>& col
                  const std::filesystem::path& earlier, const HistoryMark& mark)
     : file_(std::move(file)), columns_(columns), mark_(mark)
 {
+  if (is_missing(earlier)) {
+    begin();
+    return;
+  }
   replace_file(file_, begun(earlier, mark));
   open(0);
 }

@@ -20,7 +20,8 @@ public:
   History(std::filesystem::path file, const std::vector<std::string>& columns);
 
   /// Continue the history `earlier`, which may be `file` itself, from the mark; later lines
-  /// are dropped. `file` is replaced atomically.
+  /// are dropped. Where `earlier` is missing the history begins at the mark: with its
+  /// heading alone. `file` is replaced atomically.
   /// @throws InputError when `earlier` differs before the mark
   History(std::filesystem::path file, const std::vector<std::string>& columns,
           const std::filesystem::path& earlier, const HistoryMark& mark);
@@ -44,6 +45,7 @@ public:
 
 private:
   void open(int flags);
+  void begin();
   void write(const std::string& line);
 
   std::filesystem::path file_;
@@ -52,7 +54,8 @@ private:
   HistoryMark mark_;
 };
 
+/// False when the file is missing.
 /// @throws InputError, naming the file, when it differs before the mark
-void check_history(const std::filesystem::path& file, const HistoryMark& mark);
+bool check_history(const std::filesystem::path& file, const HistoryMark& mark);
 
 } // namespace mergel::dem

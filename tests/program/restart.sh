@@ -200,9 +200,16 @@ same f
 [ "$(code_of "$mergel" bond "$root/apps/cases/bond_fig4a_tension.prm" --restart b)" -eq 1 ] && grep -q 'holds a run with checkpoints' log || fail "bond over a pile: $(cat log)"
 [ -e "b/$name" ] || fail "the checkpoint of b is gone"
 
-# A lost history is reported; a file that is not a checkpoint is refused.
+# A lost history is reported, and begins at the checkpoint; another one is refused.
 rm -rf e; cp -r b e; rm e/history.csv
-[ "$(code_of pile --restart e)" -eq 1 ] && grep -q 'history.csv: is missing' log || fail "a lost history: $(cat log)"
+pile --restart e >log || fail "a lost history: $(tail -3 log)"
+grep -q '^e/history.csv: is missing, and begins at the checkpoint$' log || fail "a lost history: $(cat log)"
+cmp <(tail -n +2 e/history.csv) <(tail -n "$(($(wc -l <e/history.csv) - 1))" whole/history.csv) ||
+  fail "after a lost history other lines follow"
+[ "$(head -1 e/history.csv)" = "$(head -1 whole/history.csv)" ] || fail "a history without its heading"
+rm -rf e; cp -r b e; sed -i '1s/time/Time/' e/history.csv
+[ "$(code_of pile --restart e)" -eq 1 ] && grep -q 'history.csv: does not begin as it did.*or move it away' log ||
+  fail "another history: $(cat log)"
 [ "$(code_of pile --restart sample.h5)" -eq 1 ] && grep -q 'sample.h5: is no checkpoint' log || fail "a sample: $(cat log)"
 long=$(printf 'x%.0s' {1..300})
 [ "$(code_of pile --restart "$long")" -eq 1 ] && grep -q 'File name too long' log || fail "a long name: $(cat log)"
@@ -222,7 +229,7 @@ rm e/summary.json; echo '{ "failure": "the sides are unstable" }' >e/failed.json
 "$mergel" info e >info && grep -q 'failed: the sides are unstable' info || fail "info of a failed run: $(cat info)"
 rm -rf e; cp -r a e
 rm "$(ls e/fields/bonds_* | head -1)"
-[ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q 'bonds_0000.vtp: is missing' log || fail "info of a lost frame: $(cat log)"
+[ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q '^  missing  *fields/bonds_0000.vtp$' log || fail "info of a lost frame: $(cat log)"
 rm -rf e; cp -r b e; cp "e/$name" "e/$name.aside"
 flock e/.mergel.lock bash -c 'touch held; until [ -e release ] || [ ! -e held ]; do sleep 0.05; done' &
 launched=$!
