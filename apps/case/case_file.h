@@ -21,6 +21,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -199,8 +200,10 @@ public:
   /// @pre read() was called; @throws NumericalError if it cannot be written
   void write_resolved(const std::filesystem::path& path) const;
 
-  /// What write_resolved() writes.
+  /// What write_resolved() writes; it begins with first_words_of_resolved.
   std::string resolved_text() const;
+  static constexpr std::string_view first_words_of_resolved =
+      "# The complete case of a run, defaults included.";
 
   /// A key whose value differs from that in an earlier resolved case; "" for one that is
   /// only in one of them.

@@ -24,9 +24,8 @@ void CaseFile::write_resolved(const std::filesystem::path& path) const
 std::string CaseFile::resolved_text() const
 {
   if (!impl_->is_read) throw std::logic_error("CaseFile: no case has been read");
-  std::string text =
-      "# The complete case of a run, defaults included. mergel reads it back to "
-      "the same bits.\n";
+  std::string text(first_words_of_resolved);
+  text += " mergel reads it back to the same bits.\n";
   for (const std::string& section : impl_->sections) {
     text += "\nsubsection " + section + "\n";
     for (const CaseKey& key : impl_->keys)

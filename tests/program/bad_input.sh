@@ -146,6 +146,7 @@ refuse "a file in the way" 'output folder file: .*file" exists and is not a fold
 refuse "a file above" 'output folder file/results: .*file" exists and is not a folder\. .*' \
   pile good.prm --output file/results
 mkdir earlier earlier/fields
+echo '# The complete case of a run, defaults included. Of an earlier run.' >earlier/resolved.prm
 echo text >earlier/history.csv
 echo text >earlier/fields/particles_0000.vtp
 refuse "an earlier run" \

@@ -47,6 +47,16 @@ echo mine >a/notes.txt
   --set "Specimen/file=c/sample.h5" >g.log || fail "with --overwrite: $(cat g.log)"
 [ "$(cat a/notes.txt)" = mine ] || fail "--overwrite touched a file that is not ours"
 
+# A folder of the user, with a history of his own, is refused with and without --overwrite.
+mkdir mine
+echo mine >mine/history.csv
+for option in "" --overwrite "--restart mine"; do
+  # shellcheck disable=SC2086
+  if "$mergel" pile "$case_file" "${tiny[@]}" --output mine $option >m.log 2>&1; then fail "a folder of the user was taken: $option"; fi
+  grep -q '^output folder mine: holds history.csv, and no run of mergel that has written it' m.log || fail "a folder of the user: $(cat m.log)"
+done
+[ "$(cat mine/history.csv)" = mine ] && [ "$(ls -A mine)" = history.csv ] || fail "a folder of the user was changed: $(ls -A mine)"
+
 # Rigid walls are stiffer than the far field: a blunt punch on an assembly that cannot break, same travel.
 punch+=(--set "Specimen/file=c/sample.h5" --set "Bond/tensile strength=1e6 MPa"
   --set "Bond/compressive strength=1e6 MPa" --set "Bond/shear strength=1e6 MPa" --set "Pile/diameter=3 mm"

@@ -38,6 +38,13 @@ ends "bench, done" 0 '' "${bench[@]}" --output t.csv
 ends "bench, a folder that does not exist" 1 'none/t\.csv: the folder none does not exist' "${bench[@]}" --output none/t.csv
 ends "bench, a block into such a folder" 1 'none/b: the folder none does not exist' "${bench[@]}" --write-block none/b
 ends "bench, a name too long" 1 'File name too long' "${bench[@]}" --output "$long"
+echo mine >mine.txt
+ends "bench, a block in place of another file" 1 'mine\.txt: exists, and is not what this option writes' "${bench[@]}" --write-block mine.txt
+ends "bench, a checkpoint in place of another file" 1 'mine\.txt: exists, and is not what this option writes' "${bench[@]}" --checkpoint mine.txt
+ends "bench, a table in place of another file" 1 'mine\.txt: exists and is not a table' "${bench[@]}" --output mine.txt
+[ "$(cat mine.txt)" = mine ] || { echo "FAILED  bench replaced a file of the user"; n_failed=$((n_failed + 1)); }
+for file in block.bin block.bin; do ends "bench, a block twice" 0 '' "${bench[@]}" --write-block "$file"; done
+for file in bench.h5 bench.h5; do ends "bench, a checkpoint twice" 0 '' "${bench[@]}" --checkpoint "$file"; done
 kib=1 ends "bench, the disk is full" 2 'block\.txt: cannot be written: File too large' "${bench[@]}" --write-block block.txt
 
 ends "bond, done" 0 '' bond "$bond" --output bond
