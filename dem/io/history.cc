@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -19,18 +20,24 @@ namespace mergel::dem {
 
 namespace {
 
-/// The part of a history before the mark.
+/// First line of a history that begins at a mark, because what was before it is missing.
+std::string remark_on(const HistoryMark& mark)
+{
+  return "# begins behind " + std::to_string(mark.bytes) + " bytes of checksum " +
+         hexadecimal(mark.sum) + ", which are missing";
+}
+
+/// The part of a history before the mark; of one that begins there its first two lines.
 std::string begun(const std::filesystem::path& file, const HistoryMark& mark)
 {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  const std::streamoff size = in ? std::streamoff(in.tellg()) : -1;
-  std::string text;
-  if (size >= 0 && mark.bytes <= static_cast<std::uint64_t>(size)) {
-    text.resize(mark.bytes);
-    in.seekg(0);
-    in.read(text.data(), static_cast<std::streamsize>(mark.bytes));
-  }
-  require(in.good() && text.size() == mark.bytes && fnv_1a(text) == mark.sum,
+  std::ifstream in(file, std::ios::binary);
+  const std::string all((std::istreambuf_iterator<char>(in)), {});
+  const std::string remark = remark_on(mark) + '\n';
+  const auto heading = all.find('\n', remark.size());
+  if (all.starts_with(remark) && heading != std::string::npos)
+    return all.substr(0, heading + 1);
+  std::string text = all.substr(0, mark.bytes);
+  require(text.size() == mark.bytes && fnv_1a(text) == mark.sum,
           file.string() +
               ": does not begin as it did when the checkpoint was written, so it cannot be "
               "continued. Put back what it was, or move it away: the history then begins "
@@ -57,13 +64,14 @@ bool check_history(const std::filesystem::path& file, const HistoryMark& mark)
 History::History(std::filesystem::path file, const std::vector<std::string>& columns)
     : file_(std::move(file)), columns_(columns)
 {
-  begin();
+  begin("");
 }
 
-void History::begin()
+void History::begin(const std::string& remark)
 {
   open(O_CREAT | O_TRUNC);
   mark_ = {0, fnv_1a("")};
+  if (!remark.empty()) write(remark);
   std::string header;
   for (std::size_t c = 0; c < columns_.size(); ++c)
     header += (c == 0 ? "" : ",") + columns_[c];
@@ -72,13 +80,15 @@ void History::begin()
 
 History::History(std::filesystem::path file, const std::vector<std::string>& columns,
                  const std::filesystem::path& earlier, const HistoryMark& mark)
-    : file_(std::move(file)), columns_(columns), mark_(mark)
+    : file_(std::move(file)), columns_(columns)
 {
   if (is_missing(earlier)) {
-    begin();
+    begin(remark_on(mark));
     return;
   }
-  replace_file(file_, begun(earlier, mark));
+  const std::string text = begun(earlier, mark);
+  mark_ = {text.size(), fnv_1a(text)};
+  replace_file(file_, text);
   open(0);
 }
 

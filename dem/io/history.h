@@ -20,8 +20,8 @@ public:
   History(std::filesystem::path file, const std::vector<std::string>& columns);
 
   /// Continue the history `earlier`, which may be `file` itself, from the mark; later lines
-  /// are dropped. Where `earlier` is missing the history begins at the mark: with its
-  /// heading alone. `file` is replaced atomically.
+  /// are dropped. Where `earlier` is missing the history begins at the mark: with a remark
+  /// (#) that says so, and its heading. `file` is replaced atomically.
   /// @throws InputError when `earlier` differs before the mark
   History(std::filesystem::path file, const std::vector<std::string>& columns,
           const std::filesystem::path& earlier, const HistoryMark& mark);
@@ -45,7 +45,7 @@ public:
 
 private:
   void open(int flags);
-  void begin();
+  void begin(const std::string& remark);
   void write(const std::string& line);
 
   std::filesystem::path file_;

@@ -204,9 +204,10 @@ same f
 rm -rf e; cp -r b e; rm e/history.csv
 pile --restart e >log || fail "a lost history: $(tail -3 log)"
 grep -q '^e/history.csv: is missing, and begins at the checkpoint$' log || fail "a lost history: $(cat log)"
-cmp <(tail -n +2 e/history.csv) <(tail -n "$(($(wc -l <e/history.csv) - 1))" whole/history.csv) ||
+cmp <(tail -n +3 e/history.csv) <(tail -n "$(($(wc -l <e/history.csv) - 2))" whole/history.csv) ||
   fail "after a lost history other lines follow"
-[ "$(head -1 e/history.csv)" = "$(head -1 whole/history.csv)" ] || fail "a history without its heading"
+[ "$(sed -n 2p e/history.csv)" = "$(head -1 whole/history.csv)" ] || fail "a history without its heading"
+head -1 e/history.csv | grep -q '^# begins behind' || fail "a history does not say that it lacks its beginning"
 rm -rf e; cp -r b e; sed -i '1s/time/Time/' e/history.csv
 [ "$(code_of pile --restart e)" -eq 1 ] && grep -q 'history.csv: does not begin as it did.*or move it away' log ||
   fail "another history: $(cat log)"

@@ -291,10 +291,23 @@ TEST_CASE("A history continues at its mark and nowhere else", "[unit][apps]")
   CHECK_THROWS_WITH(dem::check_history(file, mark), Contains("does not begin as it did"));
   fs::remove(file);
   CHECK_FALSE(dem::check_history(file, mark));
-  dem::History history(file, columns, file, mark);
-  history.add({3.0, 4.0});
-  CHECK(content(file) == "a [m],b [s]\n3,4\n"); // begins at the mark
-  CHECK(history.mark().bytes == content(file).size());
+  std::string begins_there;
+  dem::HistoryMark later;
+  for (int k = 0; k < 2; ++k) { // also where it was continued so before
+    dem::History history(file, columns, file, mark);
+    history.add({3.0, 4.0});
+    later = history.mark();
+    begins_there = content(file);
+    CHECK_THAT(begins_there, StartsWith("# begins behind 16 bytes of checksum ") &&
+                                 Catch::EndsWith("missing\na [m],b [s]\n3,4\n"));
+    CHECK(later.bytes == begins_there.size());
+    history.add({5.0, 6.0});
+    CHECK(dem::check_history(file, mark));
+    CHECK(dem::check_history(file, later));
+  }
+  dem::History history(file, columns, file, later);
+  CHECK(content(file) == begins_there);
+  CHECK_THROWS_AS(dem::check_history(file, {7, 7}), InputError);
 }
 
 TEST_CASE("The keys in which two resolved cases differ are found", "[unit][apps]")
