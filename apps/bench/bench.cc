@@ -55,17 +55,24 @@ void declare(CLI::App& app, BenchOptions& o)
       })
       ->expected(1);
   app.add_option("--particles", o.particles, "number of particles; default 50000");
-  app.add_option("--steps", o.steps, "timed steps; default 1000");
-  app.add_option("--repeat", o.repeat,
-                 "equal blocks of steps, timed separately; default 5");
+  CLI::Option* const steps =
+      app.add_option("--steps", o.steps, "timed steps; default 1000");
+  CLI::Option* const repeat = app.add_option(
+      "--repeat", o.repeat, "equal blocks of steps, timed separately; default 5");
   app.add_option("--seed", o.spec.seed, "of the workload; default 1");
   app.add_option("--yielding", o.spec.yielding,
                  "fraction of the bonds of W1 that yield in a step, 0 to 0.5; default 0");
-  app.add_option("--output", o.output, "CSV file to which a line per workload is added");
-  app.add_option("--write-block", o.block,
-                 "text file for the particles and bonds of W1, for another code; no run");
-  app.add_option("--checkpoint", o.checkpoint,
-                 "file for a checkpoint of the first workload, which is timed; no run");
+  CLI::Option* const output = app.add_option(
+      "--output", o.output, "CSV file to which a line per workload is added");
+  CLI::Option* const block = app.add_option(
+      "--write-block", o.block,
+      "text file for the particles and bonds of W1, for another code; no run");
+  CLI::Option* const checkpoint =
+      app.add_option("--checkpoint", o.checkpoint,
+                     "file for a checkpoint of the first workload, which is timed; no run");
+  block->excludes(checkpoint);
+  for (CLI::Option* const no_run : {block, checkpoint})
+    for (CLI::Option* const of_run : {steps, repeat, output}) no_run->excludes(of_run);
 }
 
 WorkloadSpec spec_of(const BenchOptions& o, Workload w)
@@ -82,6 +89,10 @@ void check(const BenchOptions& o)
           "mergel bench: --steps = " + std::to_string(o.steps) +
               ", --repeat = " + std::to_string(o.repeat) +
               ": must be at least one block of at least one step");
+  require(
+      o.block.empty() || o.workloads.front() == Workload::bonded_block,
+      "mergel bench: --write-block writes W1, and --workload W2 has no effect. Leave one "
+      "of them out");
   require(o.particles > 0, "mergel bench: --particles must be positive");
   for (const Workload w : o.workloads) spec_of(o, w).check();
 }
