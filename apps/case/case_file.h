@@ -61,8 +61,10 @@ public:
   /// Open a section, new or declared before; one at a time.
   Section section(const std::string& name);
 
-  /// While it lives, declared keys exist only where a choice of the same section has one of
-  /// these values; elsewhere they are refused. Two conditions that exclude each other may
+  /// While it lives, declared keys exist only where a choice or flag of the same section has
+  /// one of these values; elsewhere they would have no effect, and a case that gives them is
+  /// refused. A resolved case does not hold them; one of an earlier version may, and is read
+  /// without them. Two conditions that exclude each other may
   /// declare keys of the same name.
   class [[nodiscard]] Condition {
   public:
@@ -76,7 +78,8 @@ public:
     CaseFile& file_;
   };
 
-  /// @param choice a choice declared before in the open section; @param values some of it
+  /// @param choice a choice or flag declared before in the open section
+  /// @param values some of it; of a flag "true" or "false"
   Condition only_if(const std::string& choice, const std::vector<std::string>& values);
 
   /// The former name of a key of the open section: a case that gives it is refused with the
@@ -99,6 +102,18 @@ public:
   /// A number without a unit.
   void number(const std::string& key, double& target, const Range& range,
               const std::string& sentence);
+
+  /// A quantity ("1" for a plain number) whose default follows from other keys. Where the
+  /// case does not give it, `target` is NaN until derive() sets it.
+  /// @param rule the default in words or as a formula, for the help: "nu/(1 - nu)"
+  void derived(const std::string& key, double& target, const std::string& si_unit,
+               const Range& range, const std::string& rule, const std::string& sentence,
+               const std::string& shown_unit = "");
+
+  /// Set such a key, and its value in the resolved case, unless the case gives it.
+  /// @pre read() was called
+  /// @throws InputError when the value is out of the range of the key
+  void derive(const std::string& section, const std::string& key, double value);
 
   /// A whole number; the range of T (up to 2^63-1) is allowed besides `range`.
   template <std::integral T>

@@ -13,7 +13,10 @@ namespace mergel::apps {
 /// One key: its description, its parser, and its value in the case that was read.
 struct CaseKey {
   std::string name = {}, unit = {}, allowed = {}, sentence = {};
-  std::string standard = {};   ///< text of the default; parse() gives the same bits
+  std::string standard = {}; ///< text of the default; parse() gives the same bits
+  std::string rule = {};     ///< by which the default follows from other keys, or ""
+  /// Of a key with a rule: set the variable; returns its text as parse() does.
+  std::function<std::string(double)> derive = {};
   bool is_required = false;    ///< no default
   std::string write_hint = {}; ///< what to write, for a missing key
 

@@ -111,8 +111,11 @@ void CaseFile::read(const std::string& text, const std::string& name,
       throw InputError(impl_->place(key) + " = " + key.value + ": " + message);
     }
   }
+  // The user did not choose the keys of a resolved case.
+  const bool is_resolved = text.starts_with(first_words_of_resolved);
   for (const CaseKey& key : impl_->keys)
-    if ((key.is_override || key.line > 0) && !impl_->find(key.section, key.name)->is_active)
+    if ((key.is_override || (key.line > 0 && !is_resolved)) &&
+        !impl_->find(key.section, key.name)->is_active)
       impl_->refuse_inactive(key);
   impl_->is_read = true;
 }

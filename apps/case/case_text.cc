@@ -64,7 +64,11 @@ CaseFile::changes_since(const std::string& earlier_resolved_text) const
       changes.push_back({key.section, key.name, was, key.resolved});
     if (same != earlier.end()) earlier.erase(same);
   }
-  for (const CaseEntry& e : earlier) changes.push_back({e.section, e.key, e.value, ""});
+  for (const CaseEntry& e : earlier) {
+    // A key that is void here was void there too, or the choice that makes it so has changed.
+    const CaseKey* key = impl_->find(e.section, e.key);
+    if (!key || key->is_active) changes.push_back({e.section, e.key, e.value, ""});
+  }
   return changes;
 }
 
@@ -74,8 +78,8 @@ void CaseFile::help(std::ostream& out) const
   for (const CaseKey& key : impl_->keys) {
     name_width = std::max(name_width, key.name.size());
     unit_width = std::max(unit_width, key.unit.size());
-    if (key.standard.size() <= 14)
-      default_width = std::max(default_width, key.standard.size());
+    for (const std::string* text : {&key.standard, &key.rule})
+      if (text->size() <= 14) default_width = std::max(default_width, text->size());
   }
   const auto row = [&](const std::string& name, const std::string& unit,
                        const std::string& standard, const std::string& allowed) {
@@ -101,7 +105,10 @@ void CaseFile::help(std::ostream& out) const
     for (const CaseKey& key : impl_->keys) {
       if (key.section != section) continue;
       row(key.name, key.unit,
-          key.is_required ? "required" : (key.standard.empty() ? "none" : key.standard),
+          key.is_required        ? "required"
+          : !key.rule.empty()    ? key.rule
+          : key.standard.empty() ? "none"
+                                 : key.standard,
           key.allowed);
       const std::string condition =
           key.choice.empty()

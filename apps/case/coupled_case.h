@@ -33,7 +33,7 @@ struct CoupledCase : SpecimenKeys {
   fem::FarFieldSpec far_field;
   dem::LinearMaterial interface;
   InterfaceBond interface_bond = InterfaceBond::bonded;
-  double collar_height = 2e-3; ///< [m]
+  double collar_height = unset; ///< [m]
 
   // Motion
   double gravity = dem::standard_gravity; ///< [m/s^2], downwards

@@ -141,7 +141,7 @@ void declare_packing(CaseFile& file, SpecimenKeys& k)
               "pressure.");
   {
     const auto only = file.only_if("packing", {"confined"});
-    s.pressure = 5e3;
+    s.pressure = unset;
     file.quantity("target pressure", s.pressure, "Pa", positive,
                   "Mean stress of the unbonded particles at rest; reached within 20 %.",
                   "kPa");

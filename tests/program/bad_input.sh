@@ -251,7 +251,7 @@ edited case.prm '/set symmetry/d'
 refuse "a pile in a whole cylinder" '--set Specimen/shape = cylinder: .*half cylinder.*' \
   pile case.prm --output out --set "Specimen/shape=cylinder"
 refuse_set "a specimen of a pile under pressure" "${place}Specimen/packing = confined: .*use .unjammed." \
-  "Specimen/packing=confined"
+  "Specimen/packing=confined" "Specimen/target pressure=5 kPa"
 
 ## one bond
 cp "$root/apps/cases/bond_fig5a.prm" bond.prm

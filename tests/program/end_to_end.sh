@@ -62,7 +62,9 @@ punch+=(--set "Specimen/file=c/sample.h5" --set "Bond/tensile strength=1e6 MPa"
   --set "Bond/compressive strength=1e6 MPa" --set "Bond/shear strength=1e6 MPa" --set "Pile/diameter=3 mm"
   --set "Pile/cone angle=170 degree" --set "Pile/final depth=0.02 mm" --set "Pile/penetration rate=0.5 m/s")
 "$mergel" pile "$case_file" "${punch[@]}" --output soft >h.log || fail "the punch: $(cat h.log)"
-"$mergel" pile "$case_file" "${punch[@]}" --set "Far field/model=rigid" --output hard >i.log ||
+# Held walls have no modulus and no stress: a case that gives them is refused (tests/unit/apps/void_keys.cc).
+sed "/^subsection Far field/,/^end/{/Young's modulus/d; /Poisson ratio/d; /K0/d}" "$case_file" >rigid.prm
+"$mergel" pile rigid.prm "${punch[@]}" --set "Far field/model=rigid" --output hard >i.log ||
   fail "the punch in rigid walls: $(cat i.log)"
 for run in soft hard; do
   grep -q '"bonds broken \[-\]": 0,' $run/summary.json || fail "a bond broke under the punch"
