@@ -9,6 +9,7 @@
 #include "apps/run/restart.h"
 #include "apps/run/run_guard.h"
 #include "apps/run/signals.h"
+#include "apps/run/standard_output.h"
 #include "dem/error.h"
 #include "fem/runtime.h"
 
@@ -47,19 +48,21 @@ void print_help(std::ostream& out)
 const char* const help_on_checkpoints =
     R"(  --restart DIR|FILE         continue a run from the newest good checkpoint of its
                              results folder, or from this checkpoint; begin a run where
-                             there is none yet. CASE.prm may be left out
+                             there is none yet; take a finished run further, where the
+                             case has a later end. CASE.prm may be left out
   --walltime TIME            write a checkpoint and stop before this time is over (4h,
                              30 min, 4:00:00, 1-12:00:00)
 
-SIGUSR1 makes the run write a checkpoint. SIGTERM makes it write one and stop.
+SIGUSR1 makes the run write a checkpoint. SIGTERM, Ctrl-C (SIGINT) and a closed terminal
+(SIGHUP) make it write one and stop, exit code 2; a second Ctrl-C ends it at once.
 
 )";
 const char* const help_without_checkpoints =
     R"(  --restart DIR              begin again in the results folder of a run that did not
                              finish; CASE.prm may be left out
 
-The job writes no checkpoints: SIGTERM ends it at once, and --walltime is refused. A
-repeated run gives the same results, bit for bit.
+The job writes no checkpoints: SIGTERM, SIGINT and SIGHUP end it at once, and --walltime is
+refused. A repeated run gives the same results, bit for bit.
 
 )";
 
@@ -139,10 +142,12 @@ int run(int argc, char** argv)
   const std::string first = arguments.empty() ? "" : arguments.front();
   if (first == "--help" || first == "-h") {
     print_help(std::cout);
+    if (launched_rank() <= 0) require_printed();
     return exit_done;
   }
   if (first == "--version") {
     std::cout << "mergel " MERGEL_VERSION "\n";
+    if (launched_rank() <= 0) require_printed();
     return exit_done;
   }
   if (first.empty()) throw InputError("mergel: no job is given. See mergel --help.");
@@ -163,13 +168,19 @@ int run(int argc, char** argv)
         return run(agreed);
       };
     else
-      start = std::get<ReadArguments>(job.run)(rest);
+      start = [run = std::get<ReadArguments>(job.run)(rest)] {
+        const int code = run();
+        on_first_rank([] { require_printed(); });
+        return code;
+      };
   } catch (const CLI::CallForHelp&) {
     print_job_help(job, std::cout);
+    if (launched_rank() <= 0) require_printed();
     return exit_done;
   }
 
   fem::Runtime runtime(argc, argv);
+  ignore_signals_again();
   return run_guarded(start);
 }
 
@@ -177,6 +188,7 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  hold_standard_descriptors();
   ignore_signals();
   // Only the first rank prints to the user.
   if (launched_rank() > 0) std::cout.setstate(std::ios::badbit);

@@ -1,5 +1,5 @@
 /// Interface balance: force, moment and power on the particles' side must equal those on
-/// the side of the far field (coupling/README.md, Interface balance).
+/// the side of the structure (coupling/README.md, Interface balance).
 #pragma once
 
 #include "coupling/exchange.h"
@@ -7,12 +7,12 @@
 
 namespace mergel::coupling {
 
-/// Relative differences between the wall forces on the particles and the forces on the far
-/// field [-].
+/// Relative differences between the wall forces on the particles and the forces on the
+/// structure [-].
 struct InterfaceBalance {
-  double force = 0.0;  ///< |sum f_fem + sum f_particles| / sum |f_wall|
+  double force = 0.0;  ///< |sum f_s + sum f_particles| / sum |f_wall|
   double moment = 0.0; ///< about the origin, over sum |x| |f_wall|
-  /// |sum f_fem.v_fem - power at the points of action| / sum |f_wall| |v_wall|
+  /// |sum f_s.v_s - power at the points of action| / sum |f_wall| |v_wall|
   double power = 0.0;
 };
 
@@ -23,6 +23,9 @@ struct InterfaceBalance {
 /// force times height. Everything else balances to round-off. Collective.
 /// @param comm of the assembly to which the wall belongs
 InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
-                                   const Nodal& x_fem, const dem::Communicator& comm);
+                                   const dem::Communicator& comm);
+
+/// The larger of each difference.
+InterfaceBalance worst(const InterfaceBalance& a, const InterfaceBalance& b);
 
 } // namespace mergel::coupling

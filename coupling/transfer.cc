@@ -29,20 +29,29 @@ Transfer::Transfer(Eigen::SparseMatrix<double, Eigen::RowMajor> N) : N_(std::mov
   }
 }
 
-void Transfer::to_dem(const Nodal& v_fem, Nodal& v_dem) const
+void Transfer::to_wall(const Nodal& v_s, Nodal& v_wall) const
 {
-  v_dem.assign(n_dem(), Eigen::Vector3d::Zero());
+  v_wall.assign(n_wall(), Eigen::Vector3d::Zero());
   for (Eigen::Index k = 0; k < N_.outerSize(); ++k)
     for (Row entry(N_, k); entry; ++entry)
-      v_dem[uz(k)] += entry.value() * v_fem[uz(entry.col())];
+      v_wall[uz(k)] += entry.value() * v_s[uz(entry.col())];
 }
 
-void Transfer::to_fem(const Nodal& f_dem, Nodal& f_fem) const
+void Transfer::to_structure(const Nodal& f_wall, Nodal& f_s) const
 {
-  f_fem.assign(n_fem(), Eigen::Vector3d::Zero());
+  f_s.assign(n_structure(), Eigen::Vector3d::Zero());
   for (Eigen::Index k = 0; k < N_.outerSize(); ++k)
     for (Row entry(N_, k); entry; ++entry)
-      f_fem[uz(entry.col())] += entry.value() * f_dem[uz(k)];
+      f_s[uz(entry.col())] += entry.value() * f_wall[uz(k)];
+}
+
+Transfer follow(const std::vector<int>& follows, std::size_t n_structure)
+{
+  Eigen::SparseMatrix<double, Eigen::RowMajor> N(static_cast<Eigen::Index>(follows.size()),
+                                                 static_cast<Eigen::Index>(n_structure));
+  for (std::size_t k = 0; k < follows.size(); ++k)
+    N.insert(static_cast<Eigen::Index>(k), follows[k]) = 1.0;
+  return Transfer(std::move(N));
 }
 
 } // namespace mergel::coupling

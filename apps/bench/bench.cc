@@ -8,6 +8,7 @@
 #include "dem/assembly/distribute.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/seal.h"
+#include "dem/io/state/checkpoint.h"
 #include "dem/text.h"
 #include "dem/timer.h"
 
@@ -54,17 +55,24 @@ void declare(CLI::App& app, BenchOptions& o)
       })
       ->expected(1);
   app.add_option("--particles", o.particles, "number of particles; default 50000");
-  app.add_option("--steps", o.steps, "timed steps; default 1000");
-  app.add_option("--repeat", o.repeat,
-                 "equal blocks of steps, timed separately; default 5");
+  CLI::Option* const steps =
+      app.add_option("--steps", o.steps, "timed steps; default 1000");
+  CLI::Option* const repeat = app.add_option(
+      "--repeat", o.repeat, "equal blocks of steps, timed separately; default 5");
   app.add_option("--seed", o.spec.seed, "of the workload; default 1");
   app.add_option("--yielding", o.spec.yielding,
                  "fraction of the bonds of W1 that yield in a step, 0 to 0.5; default 0");
-  app.add_option("--output", o.output, "CSV file to which a line per workload is added");
-  app.add_option("--write-block", o.block,
-                 "text file for the particles and bonds of W1, for another code; no run");
-  app.add_option("--checkpoint", o.checkpoint,
-                 "file for a checkpoint of the first workload, which is timed; no run");
+  CLI::Option* const output = app.add_option(
+      "--output", o.output, "CSV file to which a line per workload is added");
+  CLI::Option* const block = app.add_option(
+      "--write-block", o.block,
+      "text file for the particles and bonds of W1, for another code; no run");
+  CLI::Option* const checkpoint =
+      app.add_option("--checkpoint", o.checkpoint,
+                     "file for a checkpoint of the first workload, which is timed; no run");
+  block->excludes(checkpoint);
+  for (CLI::Option* const no_run : {block, checkpoint})
+    for (CLI::Option* const of_run : {steps, repeat, output}) no_run->excludes(of_run);
 }
 
 WorkloadSpec spec_of(const BenchOptions& o, Workload w)
@@ -81,6 +89,10 @@ void check(const BenchOptions& o)
           "mergel bench: --steps = " + std::to_string(o.steps) +
               ", --repeat = " + std::to_string(o.repeat) +
               ": must be at least one block of at least one step");
+  require(
+      o.block.empty() || o.workloads.front() == Workload::bonded_block,
+      "mergel bench: --write-block writes W1, and --workload W2 has no effect. Leave one "
+      "of them out");
   require(o.particles > 0, "mergel bench: --particles must be positive");
   for (const Workload w : o.workloads) spec_of(o, w).check();
 }
@@ -349,6 +361,41 @@ void check_place(const char* option, const std::filesystem::path& file)
               " does not exist or cannot be written. Create it, or name another");
 }
 
+/// Refuse to replace a file that this job has not written, before the measurement.
+/// @param is_own whether it has; called when the file exists
+/// @throws InputError
+template <class IsOwn>
+void check_earlier(const char* option, const std::filesystem::path& file, IsOwn&& is_own)
+{
+  std::error_code error; // a file that cannot be reached is refused where it is written
+  require(!std::filesystem::exists(std::filesystem::symlink_status(file, error)) ||
+              is_own(),
+          "mergel bench: " + std::string(option) + " " + file.string() +
+              ": exists, and is not what this option writes. Move it away, or choose "
+              "another name");
+}
+
+/// Whether the file begins as write_block() begins one: two whole numbers and a time.
+bool is_block(const std::filesystem::path& file)
+{
+  std::ifstream in(file);
+  std::string line, rest;
+  std::getline(in, line);
+  std::istringstream first(line);
+  std::size_t n_particles = 0, n_bonds = 0;
+  double dt = 0.0;
+  return first >> n_particles >> n_bonds >> dt && !(first >> rest) && dt > 0.0;
+}
+
+bool is_checkpoint_of_bench(const std::filesystem::path& file)
+{
+  try {
+    return dem::read_checkpoint(file).label.job == "bench";
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 /// The lines of the file, without newlines; none if there is no file.
 /// @throws InputError when it is not a table of this job
 std::vector<std::string> earlier_lines(const std::filesystem::path& file,
@@ -395,12 +442,20 @@ int run_bench(const BenchOptions& o)
 {
   if (!o.block.empty()) {
     check_place("--write-block", o.block);
+    on_first_rank([&] {
+      check_earlier("--write-block", o.block, [&] { return is_block(o.block); });
+    });
     on_first_rank(
         [&] { write_block(o.block, make_workload(spec_of(o, Workload::bonded_block))); });
     std::cout << "block: " << o.block.string() << '\n';
     return 0;
   }
   if (!o.checkpoint.empty()) {
+    check_place("--checkpoint", o.checkpoint);
+    on_first_rank([&] {
+      check_earlier("--checkpoint", o.checkpoint,
+                    [&] { return is_checkpoint_of_bench(o.checkpoint); });
+    });
     measure_checkpoint(spec_of(o, o.workloads.front()), o.checkpoint);
     return 0;
   }

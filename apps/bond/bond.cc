@@ -4,6 +4,8 @@
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
 #include "apps/run/restart.h"
+#include "apps/run/summary.h"
+#include "apps/run/results.h"
 #include "dem/element/controlled_pair.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/history.h"
@@ -203,6 +205,9 @@ public:
     energy_error_ = std::max(energy_error_, error);
     ++n_records;
   }
+  /// @throws NumericalError when another program has touched the history
+  void require_in_place() const { history_.require_in_place(); }
+
   /// Largest |work - stored - dissipated| over the largest stored or dissipated energy [-].
   double energy_error() const
   {
@@ -229,28 +234,23 @@ void write_summary(const std::filesystem::path& file, const dem::BondLaw& law,
 {
   const dem::SingleStrengths strong = std::visit(
       [&](const auto& bond) { return single_strengths(bond, pair.shape()); }, law);
-  std::ostringstream out;
-  const auto number = [&](const char* name, double value, const char* end = ",\n") {
-    out << "  \"" << name << "\": " << dem::shortest(value) << end;
-  };
-  out << "{\n  \"bond law\": \""
-      << std::visit([](const auto& bond) { return bond.name; }, law) << "\",\n";
-  number("tensile strength [N]", strong.tension);
+  Summary s;
+  s.text("bond law", std::visit([](const auto& bond) { return bond.name; }, law));
+  s.number("tensile strength [N]", strong.tension);
   if (std::isfinite(strong.compression))
-    number("compressive strength [N]", strong.compression);
-  number("shear strength [N]", strong.shear);
-  number("moment strength [N.m]", strong.moment);
-  number("largest tension [N]", record.tension);
-  number("largest compression [N]", record.compression);
-  number("largest shear force [N]", record.shear);
-  number("largest moment [N.m]", record.moment);
-  number("damage at the end [-]", record.D);
-  number("work [J]", pair.work());
-  number("dissipated [J]", pair.dissipated());
-  number("energy error [-]", record.energy_error());
-  number("steps [-]", static_cast<double>(record.n_records - 1), "\n");
-  out << "}\n";
-  dem::replace_file(file, out.str());
+    s.number("compressive strength [N]", strong.compression);
+  s.number("shear strength [N]", strong.shear);
+  s.number("moment strength [N.m]", strong.moment);
+  s.number("largest tension [N]", record.tension);
+  s.number("largest compression [N]", record.compression);
+  s.number("largest shear force [N]", record.shear);
+  s.number("largest moment [N.m]", record.moment);
+  s.number("damage at the end [-]", record.D);
+  s.number("work [J]", pair.work());
+  s.number("dissipated [J]", pair.dissipated());
+  s.number("energy error [-]", record.energy_error());
+  s.count("steps [-]", record.n_records - 1);
+  dem::replace_file(file, s.object());
 }
 
 void print_summary(const std::filesystem::path& folder, const Record& record)
@@ -289,8 +289,7 @@ void load_bond(const JobOptions& options)
   const auto path = corners(file, c);
   OutputFolder folder = folder_to_begin_in(options);
   const auto inputs = inputs_of(options, std::nullopt, {c.path});
-  folder.commit(inputs);
-  file.write_resolved(folder.path() / "resolved.prm");
+  begin_folder(folder, inputs, file);
 
   const dem::BondLaw law = c.bond.chosen();
   dem::ControlledPair pair(
@@ -310,6 +309,8 @@ void load_bond(const JobOptions& options)
     }
   }
   write_summary(folder.path() / "summary.json", law, record, pair);
+  record.require_in_place();
+  require_results(folder.path(), "bond");
   print_summary(folder.path(), record);
 }
 

@@ -82,6 +82,15 @@ void CaseFile::former_section(const std::string& former, const std::string& sect
   impl_->former_sections[former] = section;
 }
 
+void CaseFile::identified_by(const std::string& sum, const std::vector<std::string>& keys)
+{
+  for (const std::string& name : keys) {
+    const auto found = impl_->find_all(impl_->open_section, name);
+    if (found.empty()) throw std::logic_error("CaseFile: no key " + name + " to identify");
+    for (CaseKey* key : found) key->sum = sum;
+  }
+}
+
 void CaseFile::quantity(const std::string& key, double& target, const std::string& si_unit,
                         const Range& range, const std::string& sentence,
                         const std::string& shown_unit)
@@ -107,6 +116,42 @@ void CaseFile::quantity(const std::string& key, double& target, const std::strin
                 target = value;
                 return with_unit(value, si_unit, shown);
               }});
+}
+
+void CaseFile::derived(const std::string& key, double& target, const std::string& si_unit,
+                       const Range& range, const std::string& rule,
+                       const std::string& sentence, const std::string& shown_unit)
+{
+  const std::string shown = shown_unit.empty() ? si_unit : shown_unit;
+  const std::string range_text = range.text(si_unit, shown);
+  with_unit(1.0, si_unit, shown); // throws std::logic_error for units that do not agree
+  const auto set = [=, &target](double value) {
+    if (!range.holds(value)) throw InputError(violation(range, range_text, sentence));
+    target = value;
+    return with_unit(value, si_unit, shown);
+  };
+  impl_->add({.name = key,
+              .unit = si_unit == "1" ? "-" : shown,
+              .allowed = range_text,
+              .sentence = sentence,
+              .rule = rule,
+              .derive = set,
+              .parse = [=, &target](const std::string& text, const std::filesystem::path&) {
+                target = std::numeric_limits<double>::quiet_NaN();
+                return text.empty() ? text : set(to_si(text, si_unit));
+              }});
+}
+
+void CaseFile::derive(const std::string& section, const std::string& key, double value)
+{
+  const CaseKey& k = impl_->at(section, key);
+  if (k.rule.empty()) throw std::logic_error("CaseFile: " + key + " follows from no other");
+  if (!k.value.empty() || !k.is_active) return;
+  try {
+    impl_->find(section, key)->resolved = k.derive(value);
+  } catch (const InputError& e) {
+    throw InputError(impl_->place(k) + " = " + k.rule + ": " + e.what());
+  }
 }
 
 void CaseFile::number(const std::string& key, double& target, const Range& range,

@@ -21,6 +21,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -60,8 +61,10 @@ public:
   /// Open a section, new or declared before; one at a time.
   Section section(const std::string& name);
 
-  /// While it lives, declared keys exist only where a choice of the same section has one of
-  /// these values; elsewhere they are refused. Two conditions that exclude each other may
+  /// While it lives, declared keys exist only where a choice or flag of the same section has
+  /// one of these values; elsewhere they would have no effect, and a case that gives them is
+  /// refused. A resolved case does not hold them; one of an earlier version may, and is read
+  /// without them. Two conditions that exclude each other may
   /// declare keys of the same name.
   class [[nodiscard]] Condition {
   public:
@@ -75,7 +78,8 @@ public:
     CaseFile& file_;
   };
 
-  /// @param choice a choice declared before in the open section; @param values some of it
+  /// @param choice a choice or flag declared before in the open section
+  /// @param values some of it; of a flag "true" or "false"
   Condition only_if(const std::string& choice, const std::vector<std::string>& values);
 
   /// The former name of a key of the open section: a case that gives it is refused with the
@@ -84,6 +88,10 @@ public:
 
   /// The same for a section.
   void former_section(const std::string& former, const std::string& section);
+
+  /// Where two cases have the text key `sum` of the open section, it alone tells whether they
+  /// differ in these keys of it: a path is no identity where the content is known.
+  void identified_by(const std::string& sum, const std::vector<std::string>& keys);
 
   /// A number with a unit. `target` is in `si_unit`, a coherent SI unit ("Pa", "m", "rad"),
   /// and so are the bounds of `range`; help and resolved case use `shown_unit` ("mm").
@@ -94,6 +102,18 @@ public:
   /// A number without a unit.
   void number(const std::string& key, double& target, const Range& range,
               const std::string& sentence);
+
+  /// A quantity ("1" for a plain number) whose default follows from other keys. Where the
+  /// case does not give it, `target` is NaN until derive() sets it.
+  /// @param rule the default in words or as a formula, for the help: "nu/(1 - nu)"
+  void derived(const std::string& key, double& target, const std::string& si_unit,
+               const Range& range, const std::string& rule, const std::string& sentence,
+               const std::string& shown_unit = "");
+
+  /// Set such a key, and its value in the resolved case, unless the case gives it.
+  /// @pre read() was called
+  /// @throws InputError when the value is out of the range of the key
+  void derive(const std::string& section, const std::string& key, double value);
 
   /// A whole number; the range of T (up to 2^63-1) is allowed besides `range`.
   template <std::integral T>
@@ -155,10 +175,20 @@ public:
   void read(const std::filesystem::path& path,
             const std::vector<std::string>& overrides = {});
 
-  /// The same from the text of a resolved case instead of a file.
+  /// The same from the text of a resolved case instead of a file, which is continued.
   /// @param name of the text in messages
   void read_text(const std::string& text, const std::string& name,
                  const std::vector<std::string>& overrides = {});
+
+  /// Say that the case to be read is that of a run that is continued: what the earlier
+  /// resolved case holds of the content of files need not be read again.
+  void continue_from(const std::string& earlier_resolved_text);
+  bool is_continued() const;
+  /// Value of a key in the earlier case; "" without one. @pre is_continued()
+  std::string earlier_value(const std::string& section, const std::string& key) const;
+
+  /// Whether the key was given by --set. @pre read() was called
+  bool is_override(const std::string& section, const std::string& key) const;
 
   /// Where the value of a key comes from, for checks that span several keys:
   /// "pile.prm:14: Pile/diameter", "--set Pile/diameter", or, for the default,
@@ -185,8 +215,10 @@ public:
   /// @pre read() was called; @throws NumericalError if it cannot be written
   void write_resolved(const std::filesystem::path& path) const;
 
-  /// What write_resolved() writes.
+  /// What write_resolved() writes; it begins with first_words_of_resolved.
   std::string resolved_text() const;
+  static constexpr std::string_view first_words_of_resolved =
+      "# The complete case of a run, defaults included.";
 
   /// A key whose value differs from that in an earlier resolved case; "" for one that is
   /// only in one of them.

@@ -13,7 +13,10 @@ namespace mergel::apps {
 /// One key: its description, its parser, and its value in the case that was read.
 struct CaseKey {
   std::string name = {}, unit = {}, allowed = {}, sentence = {};
-  std::string standard = {};   ///< text of the default; parse() gives the same bits
+  std::string standard = {}; ///< text of the default; parse() gives the same bits
+  std::string rule = {};     ///< by which the default follows from other keys, or ""
+  /// Of a key with a rule: set the variable; returns its text as parse() does.
+  std::function<std::string(double)> derive = {};
   bool is_required = false;    ///< no default
   std::string write_hint = {}; ///< what to write, for a missing key
 
@@ -30,6 +33,7 @@ struct CaseKey {
   std::string value = {}, resolved = {}; ///< as given, and for write_resolved()
   int line = 0;                          ///< in the case file; 0 if not there
   bool is_override = false;              ///< from --set
+  std::string sum = {}; ///< key of its section that tells its content; may be empty
 };
 
 /// What a CaseFile holds.
@@ -43,6 +47,8 @@ struct CaseFile::Impl {
   std::string open_choice;              ///< of the open condition
   std::vector<std::string> open_values; ///< of the open condition
   bool is_read = false;
+  bool is_continued = false;
+  std::vector<CaseEntry> earlier; ///< of the run that is continued
   std::string file_name;
   std::map<std::string, int> section_lines;
 

@@ -18,9 +18,29 @@ void CaseFile::read(const std::filesystem::path& path,
        overrides);
 }
 
+void CaseFile::continue_from(const std::string& earlier_resolved_text)
+{
+  impl_->is_continued = true;
+  impl_->earlier = scan_case(earlier_resolved_text, "earlier case").entries;
+}
+
+bool CaseFile::is_continued() const
+{
+  return impl_->is_continued;
+}
+
+std::string CaseFile::earlier_value(const std::string& section,
+                                    const std::string& key) const
+{
+  for (const CaseEntry& e : impl_->earlier)
+    if (e.section == section && e.key == key) return e.value;
+  return "";
+}
+
 void CaseFile::read_text(const std::string& text, const std::string& name,
                          const std::vector<std::string>& overrides)
 {
+  continue_from(text);
   read(text, name, std::filesystem::current_path(), overrides);
 }
 
@@ -91,8 +111,11 @@ void CaseFile::read(const std::string& text, const std::string& name,
       throw InputError(impl_->place(key) + " = " + key.value + ": " + message);
     }
   }
+  // The user did not choose the keys of a resolved case.
+  const bool is_resolved = text.starts_with(first_words_of_resolved);
   for (const CaseKey& key : impl_->keys)
-    if ((key.is_override || key.line > 0) && !impl_->find(key.section, key.name)->is_active)
+    if ((key.is_override || (key.line > 0 && !is_resolved)) &&
+        !impl_->find(key.section, key.name)->is_active)
       impl_->refuse_inactive(key);
   impl_->is_read = true;
 }
@@ -114,6 +137,11 @@ void CaseFile::resolve(const std::string& section, const std::string& key,
 {
   impl_->at(section, key); // throws unless the key exists and a case was read
   impl_->find(section, key)->resolved = value;
+}
+
+bool CaseFile::is_override(const std::string& section, const std::string& key) const
+{
+  return impl_->at(section, key).is_override;
 }
 
 bool CaseFile::is_given(const std::string& section, const std::string& key) const

@@ -24,9 +24,8 @@ void CaseFile::write_resolved(const std::filesystem::path& path) const
 std::string CaseFile::resolved_text() const
 {
   if (!impl_->is_read) throw std::logic_error("CaseFile: no case has been read");
-  std::string text =
-      "# The complete case of a run, defaults included. mergel reads it back to "
-      "the same bits.\n";
+  std::string text(first_words_of_resolved);
+  text += " mergel reads it back to the same bits.\n";
   for (const std::string& section : impl_->sections) {
     text += "\nsubsection " + section + "\n";
     for (const CaseKey& key : impl_->keys)
@@ -44,6 +43,16 @@ CaseFile::changes_since(const std::string& earlier_resolved_text) const
 {
   if (!impl_->is_read) throw std::logic_error("CaseFile: no case has been read");
   std::vector<CaseEntry> earlier = scan_case(earlier_resolved_text, "earlier case").entries;
+  const auto earlier_value = [entries = earlier](const std::string& section,
+                                                 const std::string& key) {
+    for (const CaseEntry& e : entries)
+      if (e.section == section && e.key == key) return e.value;
+    return std::string();
+  };
+  const auto is_told_by_sum = [&](const CaseKey& key) {
+    return !key.sum.empty() && !impl_->at(key.section, key.sum).resolved.empty() &&
+           !earlier_value(key.section, key.sum).empty();
+  };
   std::vector<Change> changes;
   for (const CaseKey& key : impl_->keys) {
     if (!key.is_active) continue;
@@ -51,11 +60,15 @@ CaseFile::changes_since(const std::string& earlier_resolved_text) const
       return e.section == key.section && e.key == key.name;
     });
     const std::string was = same == earlier.end() ? "" : same->value;
-    if (was != key.resolved || same == earlier.end())
+    if ((was != key.resolved || same == earlier.end()) && !is_told_by_sum(key))
       changes.push_back({key.section, key.name, was, key.resolved});
     if (same != earlier.end()) earlier.erase(same);
   }
-  for (const CaseEntry& e : earlier) changes.push_back({e.section, e.key, e.value, ""});
+  for (const CaseEntry& e : earlier) {
+    // A key that is void here was void there too, or the choice that makes it so has changed.
+    const CaseKey* key = impl_->find(e.section, e.key);
+    if (!key || key->is_active) changes.push_back({e.section, e.key, e.value, ""});
+  }
   return changes;
 }
 
@@ -65,8 +78,8 @@ void CaseFile::help(std::ostream& out) const
   for (const CaseKey& key : impl_->keys) {
     name_width = std::max(name_width, key.name.size());
     unit_width = std::max(unit_width, key.unit.size());
-    if (key.standard.size() <= 14)
-      default_width = std::max(default_width, key.standard.size());
+    for (const std::string* text : {&key.standard, &key.rule})
+      if (text->size() <= 14) default_width = std::max(default_width, text->size());
   }
   const auto row = [&](const std::string& name, const std::string& unit,
                        const std::string& standard, const std::string& allowed) {
@@ -92,7 +105,10 @@ void CaseFile::help(std::ostream& out) const
     for (const CaseKey& key : impl_->keys) {
       if (key.section != section) continue;
       row(key.name, key.unit,
-          key.is_required ? "required" : (key.standard.empty() ? "none" : key.standard),
+          key.is_required        ? "required"
+          : !key.rule.empty()    ? key.rule
+          : key.standard.empty() ? "none"
+                                 : key.standard,
           key.allowed);
       const std::string condition =
           key.choice.empty()

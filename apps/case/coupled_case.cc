@@ -12,9 +12,10 @@ void declare_far_field(CaseFile& file, CoupledCase& c)
 {
   const auto section = file.section("Far field");
   fem::FarFieldSpec& f = c.far_field;
+  using Model = coupling::FarFieldStructure::Model;
   file.choice("model", c.model,
-              std::vector<std::pair<std::string, FarFieldModel>>{
-                  {"elastic", FarFieldModel::elastic}, {"rigid", FarFieldModel::rigid}},
+              std::vector<std::pair<std::string, Model>>{{"elastic", Model::elastic},
+                                                         {"rigid", Model::rigid}},
               "Elastic solid, or the same walls held fixed.");
   file.quantity("chamber diameter", f.chamber_diameter, "m", positive,
                 "Outer diameter of the far field.", "mm");
@@ -25,16 +26,20 @@ void declare_far_field(CaseFile& file, CoupledCase& c)
   file.former_name("growth", "mesh growth ratio");
   file.number("mesh growth ratio", f.growth, between(1.0, 3.0),
               "Ratio of neighbouring cell sizes away from the DEM region.");
-  file.quantity("Young's modulus", f.E, "Pa", positive, "E of the intact rock.", "GPa");
-  file.number("Poisson ratio", f.nu, from_to(0.0, 0.5).named("nu"),
-              "nu of the intact rock.");
-  f.K0 = 0.163;
-  file.number("K0", f.K0, non_negative, "Initial horizontal over vertical stress.");
-  file.choice("outer boundary", f.outer,
-              std::vector<std::pair<std::string, fem::FarFieldSpec::Outer>>{
-                  {"roller", fem::FarFieldSpec::Outer::roller},
-                  {"fixed", fem::FarFieldSpec::Outer::fixed}},
-              "Chamber wall: no radial displacement, or none at all.");
+  {
+    const auto only = file.only_if("model", {"elastic"});
+    file.quantity("Young's modulus", f.E, "Pa", positive, "E of the intact rock.", "GPa");
+    file.number("Poisson ratio", f.nu, from_to(0.0, 0.5).named("nu"),
+                "nu of the intact rock.");
+    file.derived("K0", f.K0, "1", non_negative, "nu/(1 - nu)",
+                 "Initial horizontal over vertical stress; by default that of an elastic "
+                 "solid that has settled between rollers.");
+    file.choice("outer boundary", f.outer,
+                std::vector<std::pair<std::string, fem::FarFieldSpec::Outer>>{
+                    {"roller", fem::FarFieldSpec::Outer::roller},
+                    {"fixed", fem::FarFieldSpec::Outer::fixed}},
+                "Chamber wall: no radial displacement, or none at all.");
+  }
   file.choice("interface", c.interface_bond,
               std::vector<std::pair<std::string, InterfaceBond>>{
                   {"bonded", InterfaceBond::bonded},
@@ -42,13 +47,18 @@ void declare_far_field(CaseFile& file, CoupledCase& c)
                   {"frictional", InterfaceBond::frictional}},
               "How particles are held at the far field: elastic bonds, bonds that may "
               "break, contact only.");
-  file.quantity("interface modulus", c.interface_modulus, "Pa", positive,
-                "Effective modulus of the contact of particles with the far field.", "GPa");
-  file.number("interface friction", c.interface_friction, non_negative,
-              "Friction coefficient of that contact.");
+  file.derived("interface modulus", c.interface_modulus, "Pa", positive, "that of Contact",
+               "Effective modulus of the contact of particles with the far field, which is "
+               "the same rock.",
+               "GPa");
+  file.derived("interface friction", c.interface_friction, "1", non_negative,
+               "Contact/friction", "Friction coefficient of that contact.");
   file.former_name("lip", "collar height");
-  file.quantity("collar height", c.collar_height, "m", non_negative,
-                "Height of the collar above the surface that keeps debris inside.", "mm");
+  file.derived(
+      "collar height", c.collar_height, "m", non_negative, "Specimen/diameter/5",
+      "Height of the collar above the surface that keeps debris inside; by default "
+      "above the heave of a pile that fits the region.",
+      "mm");
 }
 
 void declare_motion(CaseFile& file, CoupledCase& c)
@@ -105,7 +115,16 @@ void complete(CaseFile& file, CoupledCase& c)
   f.region_diameter = c.diameter;
   f.region_height = c.height;
   f.rho = s.rho * (1.0 - s.porosity);
-  f.gravity = c.gravity;
+  if (c.model == coupling::FarFieldStructure::Model::elastic) {
+    file.derive("Far field", "K0", f.nu / (1.0 - f.nu));
+    f.gravity = c.gravity;
+  } else { // a wall: it has neither strain nor stress
+    f.E = 1.0;
+    f.nu = f.K0 = f.gravity = 0.0;
+  }
+  file.derive("Far field", "interface modulus", dem::modulus(c.material.contact));
+  file.derive("Far field", "interface friction", dem::friction(c.material.contact));
+  file.derive("Far field", "collar height", 0.2 * c.diameter);
   f.damping = c.damping;
   c.interface = wall_contact(c.material.contact, c.interface_modulus, c.interface_friction);
   try {

@@ -3,18 +3,12 @@
 #pragma once
 
 #include "apps/case/specimen_keys.h"
+#include "coupling/far_field_structure.h"
 #include "dem/assembly/timestep.h"
-#include "fem/far_field/far_field.h"
 
 #include <optional>
 
 namespace mergel::apps {
-
-/// What surrounds the DEM region.
-enum class FarFieldModel {
-  elastic, ///< elastic solid (finite elements) that moves with the assembly
-  rigid    ///< the same walls, held fixed
-};
 
 /// How the interface holds the particles next to it.
 enum class InterfaceBond {
@@ -23,20 +17,20 @@ enum class InterfaceBond {
   frictional ///< contact only
 };
 
-/// The DEM region is a half cylinder inside the far field (coupling/README.md, Interface).
+/// The DEM region is a half cylinder inside the far field (coupling/README.md, Far field).
 struct CoupledCase : SpecimenKeys {
   BondKeys bond;
   ContactKeys contact;
   dem::PairMaterials material; ///< set by complete()
 
   // Far field
-  FarFieldModel model = FarFieldModel::elastic;
+  coupling::FarFieldStructure::Model model = coupling::FarFieldStructure::Model::elastic;
   fem::FarFieldSpec far_field;
   double interface_modulus = 0.63e9; ///< [Pa]
   double interface_friction = 0.3;   ///< [-]
   dem::ContactLaw interface;         ///< set by complete()
   InterfaceBond interface_bond = InterfaceBond::bonded;
-  double collar_height = 2e-3; ///< [m]
+  double collar_height = unset; ///< [m]
 
   // Motion
   double gravity = dem::standard_gravity; ///< [m/s^2], downwards

@@ -92,6 +92,11 @@ void declare_sizes(CaseFile& file, SpecimenKeys& k)
   file.text("size table sum", k.table_sum,
             "Checksum of that file, set in a resolved case: a changed table is refused. "
             "Empty: not checked.");
+  file.text(
+      "size table points", k.table_points,
+      "The curve of that file, diameter [m] and passing [-] of each point, set in a "
+      "resolved case: a run that is continued, or whose table is gone, needs no file.");
+  file.identified_by("size table sum", {"size table", "size table points"});
 }
 
 void declare_upscaling(CaseFile& file, SpecimenKeys& k)
@@ -136,7 +141,7 @@ void declare_packing(CaseFile& file, SpecimenKeys& k)
               "pressure.");
   {
     const auto only = file.only_if("packing", {"confined"});
-    s.pressure = 5e3;
+    s.pressure = unset;
     file.quantity("target pressure", s.pressure, "Pa", positive,
                   "Mean stress of the unbonded particles at rest; reached within 20 %.",
                   "kPa");
@@ -164,7 +169,87 @@ std::string in_mm(double x)
   return out.str();
 }
 
-dem::SizeCurve curve_of(const CaseFile& file, const SpecimenKeys& k)
+/// "0.0001 0, 0.0002 1": diameter [m] and passing [-] of each point.
+std::string text_of(const dem::SieveSizes& sizes)
+{
+  std::string text;
+  for (std::size_t k = 0; k < sizes.d.size(); ++k)
+    text += (k > 0 ? ", " : "") + dem::shortest(sizes.d[k]) + ' ' +
+            dem::shortest(sizes.passing[k]);
+  return text;
+}
+
+/// The points of text_of(). @throws InputError without place and value
+dem::SieveSizes sieve_from(const std::string& text)
+{
+  dem::SieveSizes sizes;
+  std::istringstream points(text);
+  for (std::string point; std::getline(points, point, ',');) {
+    std::istringstream numbers(point);
+    double d = 0.0, passing = 0.0;
+    std::string rest;
+    const bool is_first = sizes.d.empty();
+    require(static_cast<bool>(numbers >> d >> passing) && !(numbers >> rest) &&
+                std::isfinite(d) && d > (is_first ? 0.0 : sizes.d.back()) &&
+                (is_first ? passing == 0.0 : passing >= sizes.passing.back()),
+            "is no sieve curve: diameters must ascend, and passing from 0 to 1. Leave the "
+            "key out to read the table");
+    sizes.d.push_back(d);
+    sizes.passing.push_back(passing);
+  }
+  require(sizes.d.size() > 1 && sizes.passing.back() == 1.0,
+          "is no sieve curve: passing must end at 1. Leave the key out to read the table");
+  return sizes;
+}
+
+std::string sum_of(const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  return dem::hexadecimal(dem::fnv_1a(bytes));
+}
+
+/// The curve of a table: from its file or, where a run is continued or the file is gone,
+/// from the case. Sets sum and points in the resolved case.
+dem::SieveSizes table_of(CaseFile& file, SpecimenKeys& k)
+{
+  std::error_code error; // a file that cannot be reached counts as gone
+  const bool is_gone = !std::filesystem::exists(k.table, error);
+  if (file.is_continued() && is_gone && k.table_points.empty()) {
+    k.table_sum = file.earlier_value("Specimen", "size table sum");
+    k.table_points = file.earlier_value("Specimen", "size table points");
+  }
+  dem::SieveSizes sizes;
+  const bool is_known = !k.table_points.empty() && !k.table_sum.empty() &&
+                        !file.is_override("Specimen", "size table") &&
+                        (file.is_continued() || is_gone);
+  try {
+    if (is_known) sizes = sieve_from(k.table_points);
+  } catch (const InputError& e) {
+    file.refuse("Specimen", "size table points", e.what());
+  }
+  try {
+    if (!is_known) sizes = dem::read_sieve_curve(k.table);
+  } catch (const InputError& e) {
+    file.refuse("Specimen", "size table", e.what());
+  }
+  if (!is_known) {
+    const std::string sum = sum_of(k.table);
+    if (!k.table_sum.empty() && k.table_sum != sum)
+      file.refuse(
+          "Specimen", "size table sum",
+          k.table.string() + " has " + sum +
+              ": it was changed after this case was resolved. Restore the old table, or "
+              "leave this key out to begin a run with the new one");
+    k.table_sum = sum;
+    k.table_points = text_of(sizes);
+  }
+  file.resolve("Specimen", "size table sum", k.table_sum);
+  file.resolve("Specimen", "size table points", k.table_points);
+  return sizes;
+}
+
+dem::SizeCurve curve_of(CaseFile& file, SpecimenKeys& k)
 {
   switch (k.sizes) {
   case Sizes::uniform:
@@ -176,11 +261,7 @@ dem::SizeCurve curve_of(const CaseFile& file, const SpecimenKeys& k)
   case Sizes::table:
     break;
   }
-  try {
-    return dem::read_sieve_curve(k.table);
-  } catch (const InputError& e) {
-    file.refuse("Specimen", "size table", e.what());
-  }
+  return table_of(file, k);
 }
 
 dem::Region region_of(const SpecimenKeys& k)
@@ -194,22 +275,6 @@ dem::Region region_of(const SpecimenKeys& k)
     break;
   }
   return dem::PeriodicBox{k.edges};
-}
-
-/// Refuse a table whose checksum is not that of the case; set it in the resolved case.
-void check_table(CaseFile& file, SpecimenKeys& k)
-{
-  std::ifstream in(k.table, std::ios::binary); // was read by curve_of()
-  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  const std::string sum = dem::hexadecimal(dem::fnv_1a(bytes));
-  if (!k.table_sum.empty() && k.table_sum != sum)
-    file.refuse(
-        "Specimen", "size table sum",
-        k.table.string() + " has " + sum +
-            ": it was changed after this case was resolved. Restore the old table, or "
-            "leave this key out to begin a run with the new one");
-  k.table_sum = sum;
-  file.resolve("Specimen", "size table sum", sum);
 }
 
 /// The key to lower when particles are too large.
@@ -251,7 +316,6 @@ void complete(CaseFile& file, SpecimenKeys& k, const dem::ContactLaw& contact)
     if (k.sizes == Sizes::log_normal) file.refuse("Specimen", "spread", e.what());
     throw;
   }
-  if (k.sizes == Sizes::table) check_table(file, k);
   if (k.upscaling == Upscaling::uniform)
     s.scale = {k.S, k.S, 0.0, 0.0};
   else if (k.shape == Shape::periodic_box)

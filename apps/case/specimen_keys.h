@@ -30,6 +30,7 @@ struct SpecimenKeys {
   double d_50 = unset, spread = unset; ///< of a log-normal law [m], [-]
   std::filesystem::path table;         ///< of a sieve curve
   std::string table_sum;               ///< its checksum; empty: not checked
+  std::string table_points;            ///< its content; empty: the file is read
 
   Upscaling upscaling = Upscaling::graded;
   double S = unset; ///< the same everywhere

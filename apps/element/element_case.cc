@@ -22,6 +22,8 @@ void declare_size_effect(CaseFile& file, SizeEffectKeys& e)
   file.flag("size effect", e.is_on,
             "Multiply the strengths of the bonds by psi (B_ref/B)^0.18, Eqs. 17-19.");
   file.former_name("sample width", "specimen width");
+  const auto only = file.only_if("size effect", {"true"});
+  e.law.reference_width = e.law.psi = unset;
   file.quantity("specimen width", e.width, "m", non_negative,
                 "B; 0 takes the mean edge of the cell.", "mm");
   file.quantity("reference width", e.law.reference_width, "m", positive,
@@ -48,8 +50,12 @@ void declare_loading(CaseFile& file, ElementCase& c)
       "inertial number", c.inertial_number, inside(0.0, 0.1),
       "I = rate d sqrt(rho/p) of the controlled strain, d the mean particle diameter by "
       "mass, rho the particle density; quasi-static below 1e-3.");
-  file.quantity("reference pressure", c.reference_pressure, "Pa", positive,
-                "Used in I in place of p where |p| is smaller.", "MPa");
+  file.derived(
+      "reference pressure", c.reference_pressure, "Pa", positive,
+      "Bond/tensile strength/40",
+      "Used in I in place of p where |p| is smaller; by default half of what a rock "
+      "bears in tension, some 1/20 of the strength of its bonds.",
+      "MPa");
   file.number("strain limit", c.strain_limit, inside(0.0, 0.9),
               "The test ends where a strain since its start exceeds this limit.");
   file.number(
@@ -172,6 +178,9 @@ void complete(CaseFile& file, ElementCase& c)
     file.refuse("Analysis", "secant to", "must be beyond `secant from`");
 
   complete(file, c.checkpoints);
+  const double strength =
+      c.bond.law == BondKeys::Law::damage ? c.bond.damage.sigma_t : c.bond.parallel.sigma_c;
+  file.derive("Loading", "reference pressure", strength / 40.0);
   bool is_over = false;
   for (std::size_t k = 0; k < max_stages; ++k) {
     if (c.stage_texts[k].empty()) {

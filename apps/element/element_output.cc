@@ -1,13 +1,11 @@
 #include "apps/element/element_output.h"
 
-#include "apps/case/words.h"
 #include "apps/run/progress.h"
-#include "dem/io/atomic_file.h"
+#include "apps/run/restart.h"
 #include "dem/text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <sstream>
 
 namespace mergel::apps {
@@ -105,9 +103,10 @@ void ElementHistory::save(dem::State& state, const ElementHistory* history)
   state.add_common<std::uint64_t>("output_history", {mark.bytes, mark.sum});
 }
 
-void ElementHistory::check(const std::filesystem::path& file, const dem::State& state)
+std::string ElementHistory::check(const std::filesystem::path& file,
+                                  const dem::State& state)
 {
-  dem::check_history(file, mark_in(state));
+  return report_on_history(file, mark_in(state));
 }
 
 void ElementHistory::add(const dem::ElementRecord& r)
@@ -392,61 +391,60 @@ CriticalStates critical_states(const ElementCase& c, const dem::ElementRecord& l
   return all;
 }
 
-void write_summary(const std::filesystem::path& file, const ElementCase& c,
-                   const ElementSummary& s, const std::string& failure)
+namespace {
+
+std::string json_of(const std::vector<StageResult>& stages)
 {
-  std::ostringstream out;
-  const auto number = [&](const std::string& name, double value, const char* end = ",\n") {
-    out << "  \"" << name << "\": " << dem::shortest(value) << end;
-  };
-  out << "{\n";
-  if (!failure.empty()) out << "  \"failure\": " << in_json(failure) << ",\n";
-  out << "  \"stages\": [";
+  std::string text = "[";
   const char* comma = "\n";
-  for (const StageResult& stage : s.stages) {
-    out << comma << "    {\n      \"stage\": \"" << stage.name
-        << "\",\n      \"outcome\": \"" << dem::sentence_of(stage.outcome) << "\"";
+  for (const StageResult& stage : stages) {
+    text += std::string(comma) + "    {\n      \"stage\": \"" + stage.name +
+            "\",\n      \"outcome\": \"" + dem::sentence_of(stage.outcome) + "\"";
     for (const Finding& f : stage.findings)
-      out << ",\n      \"" << f.name << " [" << f.unit << "]\": " << dem::shortest(f.value);
-    out << "\n    }";
+      text += ",\n      \"" + f.name + " [" + f.unit + "]\": " + dem::shortest(f.value);
+    text += "\n    }";
     comma = ",\n";
   }
-  out << "\n  ],\n";
-  number("secant from [-]", c.secant_from);
-  number("secant to [-]", c.secant_to);
-  number("yield offset [-]", c.yield_offset);
-  number("p at the end [Pa]", s.last.whole.p());
-  number("q at the end [Pa]", s.last.whole.q());
-  number("void ratio at the end [-]", s.last.averages.void_ratio);
-  if (s.critical.line) {
-    number("critical states fitted [-]", count(s.critical.states.size()));
-    number("critical state line Gamma [-]", s.critical.line->intercept);
-    number("critical state line lambda [-]", -s.critical.line->slope);
-    number("critical state line R2 [-]", s.critical.line->R2);
-  }
-  number("bonds broken [-]", count(s.last.broken));
-  const char* modes[] = {"tension", "compression", "shear", "bending"};
-  for (std::size_t k = 0; k < dem::n_break_modes; ++k)
-    number(std::string("broken in ") + modes[k] + " [-]", count(s.last.broken_by[k]));
-  number("boundary work [J]", s.last.balance.cell_work);
-  number("largest energy error [-]", s.worst_energy_error);
-  number("largest strain rate [1/s]", s.largest_rate);
-  number("largest inertial number [-]", s.largest_inertial_number);
-  number("rates cut at their limit [-]", count(s.n_limited));
-  number("particles [-]", count(s.n_particles));
-  number("steps [-]", count(s.n_steps));
-  number("time step [s]", s.dt);
-  number("wall-clock time [s]", s.seconds, "\n");
-  out << "}\n";
-  dem::replace_file(file, out.str());
+  return text + "\n  ]";
 }
 
-void print_summary(const std::filesystem::path& file, const ElementSummary& s)
+void add_figures(Summary& to, const ElementCase& c, const ElementSummary& s)
 {
-  const std::string folder = file.parent_path().string();
-  std::ostream& out = std::cout;
+  to.json("stages", json_of(s.stages));
+  to.number("secant from [-]", c.secant_from);
+  to.number("secant to [-]", c.secant_to);
+  to.number("yield offset [-]", c.yield_offset);
+  to.number("p at the end [Pa]", s.last.whole.p());
+  to.number("q at the end [Pa]", s.last.whole.q());
+  to.number("void ratio at the end [-]", s.last.averages.void_ratio);
+  if (s.critical.line) {
+    to.count("critical states fitted [-]", s.critical.states.size());
+    to.number("critical state line Gamma [-]", s.critical.line->intercept);
+    to.number("critical state line lambda [-]", -s.critical.line->slope);
+    to.number("critical state line R2 [-]", s.critical.line->R2);
+  }
+  to.count("bonds broken [-]", s.last.broken);
+  const char* modes[] = {"tension", "compression", "shear", "bending"};
+  for (std::size_t k = 0; k < dem::n_break_modes; ++k)
+    to.count(std::string("broken in ") + modes[k] + " [-]", s.last.broken_by[k]);
+  to.number("boundary work [J]", s.last.balance.cell_work);
+  to.number("largest energy error [-]", s.worst_energy_error);
+  to.number("largest strain rate [1/s]", s.largest_rate);
+  to.number("largest inertial number [-]", s.largest_inertial_number);
+  to.count("rates cut at their limit [-]", s.n_limited);
+  to.count("particles [-]", s.n_particles);
+  to.count("steps [-]", s.n_steps);
+  to.number("time step [s]", s.dt);
+  to.number("wall-clock time [s]", s.seconds);
+}
+
+} // namespace
+
+void summarise(Summary& summary, const ElementCase& c, const ElementSummary& s)
+{
+  add_figures(summary, c, s);
+  std::ostream& out = summary.closing;
   out.precision(4);
-  out << '\n';
   for (std::size_t k = 0; k < s.stages.size(); ++k) {
     const StageResult& stage = s.stages[k];
     out << "stage " << k + 1 << ", " << stage.name << ": "
@@ -476,9 +474,7 @@ void print_summary(const std::filesystem::path& file, const ElementSummary& s)
   out << "\n"
       << s.n_particles << " particles, " << s.n_steps << " steps, "
       << 1e9 * s.seconds / static_cast<double>(s.n_steps * s.n_particles)
-      << " ns per particle and step, whole run " << duration_text(s.seconds)
-      << "\nresults: " << folder << " (history.csv, " << file.filename().string()
-      << "); pictures: mergel-view " << folder << '\n';
+      << " ns per particle and step, whole run " << duration_text(s.seconds);
 }
 
 } // namespace mergel::apps

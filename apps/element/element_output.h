@@ -1,7 +1,8 @@
-/// Results of `mergel element`: history.csv, summary.json and the summary on std::cout.
+/// Results of `mergel element`: history.csv and the summary.
 #pragma once
 
 #include "apps/element/element_case.h"
+#include "apps/run/summary.h"
 #include "dem/element/element_analysis.h"
 #include "dem/element/element_test.h"
 #include "dem/io/history.h"
@@ -22,10 +23,13 @@ public:
                  const dem::State& state);
   /// Add its length and checksum. @param history null on all ranks but the first
   static void save(dem::State& state, const ElementHistory* history);
+  /// A line on a history that is missing; "" where it is there.
   /// @throws InputError when `file` does not begin with the bytes that `state` records
-  static void check(const std::filesystem::path& file, const dem::State& state);
+  static std::string check(const std::filesystem::path& file, const dem::State& state);
 
   void add(const dem::ElementRecord& r);
+  /// @throws NumericalError when another program has touched the file
+  void require_in_place() const { history_.require_in_place(); }
 
 private:
   dem::History history_;
@@ -66,10 +70,7 @@ struct ElementSummary {
   std::size_t n_particles = 0, n_steps = 0, n_limited = 0;
   double dt = 0.0, seconds = 0.0;
 };
-/// @param failure message of the failure that ended the test, or empty
-void write_summary(const std::filesystem::path& file, const ElementCase& c,
-                   const ElementSummary& s, const std::string& failure);
-/// @param file of write_summary(), named in the text
-void print_summary(const std::filesystem::path& file, const ElementSummary& s);
+/// Add the results to summary.json, and a line for each stage to the closing text.
+void summarise(Summary& summary, const ElementCase& c, const ElementSummary& s);
 
 } // namespace mergel::apps

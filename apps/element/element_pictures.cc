@@ -58,18 +58,21 @@ void ElementPictures::save(dem::State& state) const
   Frames::save(state, frames_ ? &*frames_ : nullptr);
 }
 
-void ElementPictures::check(const std::filesystem::path& folder, const dem::State& state)
+std::string ElementPictures::check(const std::filesystem::path& folder,
+                                   const dem::State& state)
 {
-  Frames::check(folder, kinds, state);
+  return Frames::check(folder, kinds, state);
 }
 
-void ElementPictures::update(bool stage_ends)
+bool ElementPictures::update(bool stage_ends)
 {
-  if (when_ == ElementCase::Pictures::none) return;
+  if (when_ == ElementCase::Pictures::none) return false;
   const dem::Vec3 grown = run_.assembly().cell.size.cwiseQuotient(size_last_);
   const bool is_strained = when_ == ElementCase::Pictures::strain &&
                            grown.array().log().abs().maxCoeff() >= every_;
-  if (stage_ends || is_strained) take_picture();
+  if (!stage_ends && !is_strained) return false;
+  take_picture();
+  return true;
 }
 
 void ElementPictures::take_picture()

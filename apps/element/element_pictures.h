@@ -27,12 +27,12 @@ public:
                   const dem::State& state);
 
   /// Take a picture where one is due: at the end of a stage, or after an edge was strained
-  /// by `picture every`.
-  void update(bool stage_ends);
+  /// by `picture every`. @return whether one was taken
+  bool update(bool stage_ends);
 
   void save(dem::State& state) const;
-  /// @throws InputError when the files of `folder` do not go as far as `state` says
-  static void check(const std::filesystem::path& folder, const dem::State& state);
+  /// A line on pictures before `state` that `folder` lacks; "" when it lacks none.
+  static std::string check(const std::filesystem::path& folder, const dem::State& state);
 
 private:
   void take_picture();

@@ -1,141 +1,143 @@
-/// Saving and loading an element test and its records as named arrays.
 #include "apps/element/element_state.h"
 
 #include "dem/io/state/assembly_state.h"
-
-#include <algorithm>
-#include <type_traits>
+#include "dem/io/state/energy_numbers.h"
+#include "dem/io/state/named_rows.h"
 
 namespace mergel::apps {
 
 namespace {
 
-/// Pointers to the numbers of a struct, in a fixed order; `Self` may be const.
-template <class T, class Self>
-using NumbersOf = std::vector<std::conditional_t<std::is_const_v<Self>, const T, T>*>;
+const char* const axis_names[] = {"x", "y", "z"};
+
+/// Append the components of a vector: "stress [Pa]" becomes "stress x [Pa]".
+template <class Numbers, class Vector>
+void append_vector(Numbers& to, const std::string& name, const std::string& unit, Vector& v)
+{
+  for (int a = 0; a < 3; ++a)
+    to.push_back({name + ' ' + axis_names[a] + ' ' + unit, &v[a]});
+}
 
 template <class Numbers, class Matrix>
-void append(Numbers& all, Matrix& m)
+void append_matrix(Numbers& to, const std::string& name, const std::string& unit, Matrix& m)
 {
-  for (Eigen::Index k = 0; k < m.size(); ++k) all.push_back(m.data() + k);
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      to.push_back({name + ' ' + axis_names[a] + axis_names[b] + ' ' + unit, &m(a, b)});
 }
 
-template <class Numbers, class Balance>
-void append_balance(Numbers& all, Balance& e)
+template <class Numbers, class Servo>
+void append_servo(Numbers& to, Servo& servo)
 {
-  all.insert(all.end(),
-             {&e.kinetic, &e.bonds, &e.contacts, &e.walls, &e.mirror, &e.gravity,
-              &e.wall_work, &e.rigid_wall_work, &e.cell_work, &e.slip, &e.plastic,
-              &e.breakage_release, &e.rotation_constraint, &e.damping});
+  to.push_back({"largest rate of the servo [1/s]", &servo.limit});
+  to.push_back({"steps of the servo [-]", &servo.steps});
+  append_vector(to, "integral of the servo", "[1/s]", servo.integral);
+  append_vector(to, "stiffness of the servo", "[Pa]", servo.stiffness);
 }
 
-template <class Self>
-NumbersOf<double, Self> numbers_of(Self& s)
+template <class Numbers, class Stage>
+void append_stage(Numbers& to, Stage& c)
 {
-  auto& c = s.active;
-  NumbersOf<double, Self> all{&s.dt,
-                              &s.dt_before,
-                              &s.time,
-                              &s.since_record,
-                              &s.largest_progress,
-                              &s.tension,
-                              &s.gross_work,
-                              &s.last_work,
-                              &s.largest_rate,
-                              &s.servo.limit,
-                              &s.servo.steps,
-                              &c.at_zero,
-                              &c.slope,
-                              &c.direction,
-                              &c.target,
-                              &c.controlled_stress_at_start,
-                              &c.strain_at_start,
-                              &c.value_at_start,
-                              &c.strain_to_return,
-                              &c.remaining};
-  for (auto& rule : c.rules) all.push_back(&rule.stress);
-  for (auto* v : {&s.size_0, &s.stress_sum, &s.held_sum, &s.stiffness_0, &s.servo.integral,
-                  &s.servo.stiffness, &c.size_0, &c.offset})
-    for (int a = 0; a < 3; ++a) all.push_back(&(*v)[a]);
-  append_balance(all, s.start);
-  return all;
-}
-
-template <class Self>
-NumbersOf<std::size_t, Self> counts_of(Self& s)
-{
-  return {&s.stage, &s.n_steps, &s.n_in_stage, &s.n_held, &s.n_stress, &s.servo.n_limited};
-}
-
-/// Choices of a stage: numbers of enumerators, 0 or 1 for flags.
-std::vector<std::uint64_t> choices_of(const dem::ActiveStage& c)
-{
-  std::vector<std::uint64_t> all{
-      static_cast<std::uint64_t>(c.controlled), static_cast<std::uint64_t>(c.follow),
-      static_cast<std::uint64_t>(c.quantity), c.returns, c.is_approaching};
-  for (const dem::AxisRule& rule : c.rules)
-    all.push_back(static_cast<std::uint64_t>(rule.kind));
-  return all;
-}
-
-template <class Choice>
-Choice choice_at(const std::vector<std::uint64_t>& all, std::size_t k, Choice last)
-{
-  if (all[k] > static_cast<std::uint64_t>(last))
-    dem::State::refuse("element_choices", "holds an unknown choice");
-  return static_cast<Choice>(all[k]);
-}
-
-void load_choices(const std::vector<std::uint64_t>& all, dem::ActiveStage& c)
-{
-  c.controlled = choice_at(all, 0, dem::ActiveStage::Controlled::y);
-  c.follow = choice_at(all, 1, dem::ActiveStage::Follow::each);
-  c.quantity = choice_at(all, 2, dem::Quantity::controlled_stress);
-  c.returns = choice_at(all, 3, true);
-  c.is_approaching = choice_at(all, 4, true);
+  to.insert(to.end(),
+            {{"stage: stress at zero [Pa]", &c.at_zero},
+             {"stage: slope [-]", &c.slope},
+             {"stage: direction [-]", &c.direction},
+             {"stage: target [Pa] or [-]", &c.target},
+             {"stage: controlled stress at the start [Pa]", &c.controlled_stress_at_start},
+             {"stage: strain at the start [-]", &c.strain_at_start},
+             {"stage: value at the start [Pa] or [-]", &c.value_at_start},
+             {"stage: strain to return to [-]", &c.strain_to_return},
+             {"stage: share of the approach that remains [-]", &c.remaining}});
   for (std::size_t a = 0; a < 3; ++a)
-    c.rules[a].kind = choice_at(all, 5 + a, dem::AxisRule::Kind::stress_controlled);
+    to.push_back({std::string("stage: stress to hold ") + axis_names[a] + " [Pa]",
+                  &c.rules[a].stress});
+  append_vector(to, "stage: edge at the start", "[m]", c.size_0);
+  append_vector(to, "stage: stress off what is to hold", "[Pa]", c.offset);
 }
 
 template <class Self>
-NumbersOf<double, Self> record_numbers_of(Self& r)
+dem::NumbersOf<Self> numbers_of(Self& s)
+{
+  dem::NumbersOf<Self> all{{"time step [s]", &s.dt},
+                           {"time step before [s]", &s.dt_before},
+                           {"time [s]", &s.time},
+                           {"controlled strain since the record [-]", &s.since_record},
+                           {"largest progress of the stage [-]", &s.largest_progress},
+                           {"largest tension of the stage [Pa]", &s.tension},
+                           {"gross work [J]", &s.gross_work},
+                           {"work at the record [J]", &s.last_work},
+                           {"largest strain rate [1/s]", &s.largest_rate},
+                           {"mean diameter of the particles [m]", &s.mean_diameter},
+                           {"density of the particles [kg/m3]", &s.density}};
+  append_vector(all, "edge before the first stage", "[m]", s.size_0);
+  append_vector(all, "sum of stresses since the record", "[Pa]", s.stress_sum);
+  append_vector(all, "sum of stresses to hold since the record", "[Pa]", s.held_sum);
+  append_vector(all, "stiffness before the first stage", "[Pa]", s.stiffness_0);
+  append_servo(all, s.servo);
+  append_stage(all, s.active);
+  dem::append_energies(all, "start: ", s.start);
+  return all;
+}
+
+template <class Self>
+dem::CountsOf<Self> counts_of(Self& s)
+{
+  using Stage = dem::ActiveStage;
+  auto& c = s.active;
+  dem::CountsOf<Self> all{
+      {"stage", &s.stage},
+      {"steps", &s.n_steps},
+      {"steps of the stage", &s.n_in_stage},
+      {"steps held after the approach", &s.n_held},
+      {"steps since the record", &s.n_stress},
+      {"rates limited by the servo", &s.servo.n_limited},
+      {"stage: controlled axes", &c.controlled, Stage::Controlled::y},
+      {"stage: rule of the other axes", &c.follow, Stage::Follow::each},
+      {"stage: quantity of the target", &c.quantity, dem::Quantity::controlled_stress},
+      {"stage: returns", &c.returns},
+      {"stage: approaches", &c.is_approaching}};
+  for (std::size_t a = 0; a < 3; ++a)
+    all.push_back({std::string("stage: rule of axis ") + axis_names[a], &c.rules[a].kind,
+                   dem::AxisRule::Kind::stress_controlled});
+  return all;
+}
+
+template <class Self>
+dem::NumbersOf<Self> numbers_of_record(Self& r)
 {
   auto& a = r.averages;
-  NumbersOf<double, Self> all{
-      &r.time,       &r.controlled_strain, &r.energy_error,      &r.inertial_number,
-      &r.unbalanced, &a.antisymmetric,     &a.bond_coordination, &a.contact_coordination,
-      &a.porosity,   &a.void_ratio};
-  for (auto* state : {&r.whole, &r.of_stage})
-    for (auto* v : {&state->stress, &state->strain})
-      for (int k = 0; k < 3; ++k) all.push_back(&(*v)[k]);
-  for (int k = 0; k < 3; ++k) all.push_back(&a.traction[k]);
-  append(all, a.stress);
-  append(all, a.bond_fabric);
-  append(all, a.contact_fabric);
-  append_balance(all, r.balance);
+  dem::NumbersOf<Self> all{{"time [s]", &r.time},
+                           {"controlled strain [-]", &r.controlled_strain},
+                           {"energy error [-]", &r.energy_error},
+                           {"inertial number [-]", &r.inertial_number},
+                           {"unbalanced-force ratio [-]", &r.unbalanced},
+                           {"antisymmetric part of the stress [-]", &a.antisymmetric},
+                           {"coordination by bonds [-]", &a.bond_coordination},
+                           {"coordination by contacts [-]", &a.contact_coordination},
+                           {"porosity [-]", &a.porosity},
+                           {"void ratio [-]", &a.void_ratio}};
+  append_vector(all, "stress", "[Pa]", r.whole.stress);
+  append_vector(all, "strain", "[-]", r.whole.strain);
+  append_vector(all, "stress of the stage", "[Pa]", r.of_stage.stress);
+  append_vector(all, "strain of the stage", "[-]", r.of_stage.strain);
+  append_vector(all, "traction", "[Pa]", a.traction);
+  append_matrix(all, "mean stress", "[Pa]", a.stress);
+  append_matrix(all, "bond fabric", "[-]", a.bond_fabric);
+  append_matrix(all, "contact fabric", "[-]", a.contact_fabric);
+  dem::append_energies(all, "", r.balance);
   return all;
 }
 
-std::size_t n_record_numbers()
+template <class Self>
+dem::CountsOf<Self> counts_of_record(Self& r)
 {
-  const dem::ElementRecord any;
-  return record_numbers_of(any).size();
-}
-
-constexpr std::size_t record_counts = 3 + dem::n_break_modes;
-
-template <class Number>
-std::vector<std::remove_const_t<Number>> values_at(const std::vector<Number*>& all)
-{
-  std::vector<std::remove_const_t<Number>> values;
-  for (const Number* a : all) values.push_back(*a);
-  return values;
-}
-
-template <class Number, class Value>
-void load_values(const std::vector<Number*>& all, const Value* from)
-{
-  for (std::size_t k = 0; k < all.size(); ++k) *all[k] = from[k];
+  return {{"stage", &r.stage},
+          {"approaches", &r.is_approach},
+          {"broken bonds", &r.broken},
+          {"broken in tension", &r.broken_by[0]},
+          {"broken in compression", &r.broken_by[1]},
+          {"broken in shear", &r.broken_by[2]},
+          {"broken in bending", &r.broken_by[3]}};
 }
 
 } // namespace
@@ -143,28 +145,17 @@ void load_values(const std::vector<Number*>& all, const Value* from)
 void save(dem::State& state, const dem::ElementState& s)
 {
   dem::save(state, s.assembly);
-  state.add_common("element_numbers", values_at(numbers_of(s)));
-  const std::vector<std::size_t> counts = values_at(counts_of(s));
-  state.add_common("element_counts",
-                   std::vector<std::uint64_t>(counts.begin(), counts.end()));
-  state.add_common("element_choices", choices_of(s.active));
-  state.add_common<double>("element_grains", {s.mean_diameter, s.density});
+  dem::save_numbers(state, "element_numbers", numbers_of(s));
+  dem::save_counts(state, "element_counts", counts_of(s));
 }
 
 dem::ElementState load_element(dem::State& state, const ElementCase& c)
 {
   dem::ElementState s;
-  const auto numbers = numbers_of(s);
-  load_values(numbers, state.get_rows<double>("element_numbers", numbers.size()).data());
-  const auto counts = counts_of(s);
-  load_values(counts,
-              state.get_rows<std::uint64_t>("element_counts", counts.size()).data());
+  dem::load_numbers(state, "element_numbers", numbers_of(s));
+  dem::load_counts(state, "element_counts", counts_of(s));
   if (s.stage >= c.stages.size())
     dem::State::refuse("element_counts", "names a stage that the case does not have");
-  load_choices(state.get_rows<std::uint64_t>("element_choices", 8), s.active);
-  const auto& particles = state.get_rows<double>("element_grains", 2);
-  s.mean_diameter = particles[0];
-  s.density = particles[1];
 
   dem::PeriodicCell first; // the size effect takes the cell before the first stage
   first.size = s.size_0;
@@ -176,33 +167,40 @@ dem::ElementState load_element(dem::State& state, const ElementCase& c)
 
 void save(dem::State& state, const std::vector<dem::ElementRecord>& records)
 {
-  std::vector<double> numbers;
-  std::vector<std::uint64_t> counts;
-  for (const dem::ElementRecord& r : records) {
-    for (const double* a : record_numbers_of(r)) numbers.push_back(*a);
-    counts.insert(counts.end(), {r.stage, r.is_approach, r.broken});
-    counts.insert(counts.end(), r.broken_by.begin(), r.broken_by.end());
-  }
-  state.add_common("record_numbers", std::move(numbers), n_record_numbers());
-  state.add_common("record_counts", std::move(counts), record_counts);
+  dem::save_number_rows(state, "record_numbers", records,
+                        [](auto& r) { return numbers_of_record(r); });
+  dem::save_count_rows(state, "record_counts", records,
+                       [](auto& r) { return counts_of_record(r); });
 }
 
 std::vector<dem::ElementRecord> load_records(const dem::State& state)
 {
-  const std::size_t n_numbers = n_record_numbers();
-  const auto& counts = state.get<std::uint64_t>("record_counts", record_counts);
-  std::vector<dem::ElementRecord> records(counts.size() / record_counts);
-  const auto& numbers = state.get_rows<double>("record_numbers", records.size(), n_numbers);
-  for (std::size_t k = 0; k < records.size(); ++k) {
-    dem::ElementRecord& r = records[k];
-    load_values(record_numbers_of(r), &numbers[k * n_numbers]);
-    const std::uint64_t* n = &counts[k * record_counts];
-    r.stage = n[0];
-    r.is_approach = n[1] != 0;
-    r.broken = n[2];
-    std::copy_n(n + 3, dem::n_break_modes, r.broken_by.begin());
-  }
+  auto records = dem::load_count_rows<dem::ElementRecord>(
+      state, "record_counts", [](auto& r) { return counts_of_record(r); });
+  if (records.empty()) dem::State::refuse("record_counts", "has no record");
+  dem::load_number_rows(state, "record_numbers", records,
+                        [](auto& r) { return numbers_of_record(r); });
   return records;
+}
+
+void save(dem::State& state, const std::vector<dem::Outcome>& outcomes)
+{
+  std::vector<std::uint64_t> numbers;
+  for (const dem::Outcome o : outcomes) numbers.push_back(static_cast<std::uint64_t>(o));
+  state.add_common("element_outcomes", std::move(numbers));
+}
+
+std::vector<dem::Outcome> load_outcomes(const dem::State& state, std::size_t n_stages)
+{
+  std::vector<dem::Outcome> outcomes;
+  for (const std::uint64_t n : state.get<std::uint64_t>("element_outcomes")) {
+    if (n > static_cast<std::uint64_t>(dem::Outcome::unstable))
+      dem::State::refuse("element_outcomes", "holds an unknown outcome");
+    outcomes.push_back(static_cast<dem::Outcome>(n));
+  }
+  if (outcomes.empty() || outcomes.size() > n_stages)
+    dem::State::refuse("element_outcomes", "counts stages that the case does not have");
+  return outcomes;
 }
 
 } // namespace mergel::apps

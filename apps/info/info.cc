@@ -9,6 +9,7 @@
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
+#include "apps/run/results.h"
 #include "dem/io/sample_file.h"
 #include "dem/io/state/checkpoint.h"
 #include "dem/io/table.h"
@@ -22,6 +23,7 @@
 #include <iostream>
 #include <iterator>
 #include <optional>
+#include <sstream>
 
 namespace mergel::apps {
 
@@ -115,10 +117,11 @@ std::optional<std::string> failure_in(const fs::path& folder)
   }
 }
 
-std::string state_of(const fs::path& folder)
+std::string state_of(const fs::path& folder, bool is_complete)
 {
   if (const auto failure = failure_in(folder)) return "failed: " + *failure;
-  return fs::exists(folder / "summary.json") ? "finished" : "not finished";
+  if (!fs::exists(folder / "summary.json")) return "not finished";
+  return is_complete ? "finished" : "incomplete";
 }
 
 /// Whether a VTK file has its closing tag.
@@ -133,13 +136,14 @@ bool is_whole_vtk(const fs::path& file)
   return tail.find(end) != std::string::npos;
 }
 
-/// Check the results that a restart from this checkpoint needs. @throws InputError
-void check_results(const fs::path& folder, const dem::Checkpoint& c)
+/// Lines on results before this checkpoint that the folder lacks.
+/// @throws InputError when its history is another one
+std::string lacks_before(const fs::path& folder, const dem::Checkpoint& c)
 {
-  if (c.label.job == "pile") PileOutput::check(folder, c.state);
-  if (c.label.job != "element") return;
-  ElementHistory::check(folder / "history.csv", c.state);
-  ElementPictures::check(folder, c.state);
+  if (c.label.job == "pile") return PileOutput::check(folder, c.state);
+  if (c.label.job != "element") return "";
+  return ElementHistory::check(folder / "history.csv", c.state) +
+         ElementPictures::check(folder, c.state);
 }
 
 /// The report on a results folder.
@@ -157,7 +161,10 @@ public:
   /// False when a file in it cannot be used.
   bool print()
   {
-    std::cout << folder_.string() << ": results folder, " << state_of(folder_) << '\n';
+    const std::vector<std::string> missing = missing_files();
+    std::cout << folder_.string() << ": results folder, "
+              << state_of(folder_, missing.empty()) << '\n';
+    for (const std::string& name : missing) judge("missing", name, "");
     if (const std::string holder = FolderLock::holder(folder_); !holder.empty())
       line("now", holder + " is writing there");
     describe_case();
@@ -175,6 +182,16 @@ private:
   {
     is_good_ = is_good_ && wrong.empty();
     line(name, wrong.empty() ? good : wrong);
+  }
+
+  std::vector<std::string> missing_files() const
+  {
+    const bool is_finished = has("summary.json");
+    if (!is_finished && !has("failed.json") && own_.frames.empty() &&
+        dem::checkpoints_in(folder_).empty())
+      return {}; // a run that was ended while it began
+    return missing_results(folder_, job_of(folder_),
+                           is_finished ? Extent::finished : Extent::begun);
   }
 
   void describe_case()
@@ -252,10 +269,14 @@ private:
                 ", t = " + dem::shortest(1e3 * c.label.time) + " ms, mergel " +
                 c.label.program + ", good");
       if (!wrong.empty()) continue;
-      if (is_newest)
-        if (const std::string lacks = fault([&] { check_results(folder_, c); });
-            !lacks.empty())
-          judge("restart", lacks, "");
+      if (is_newest) {
+        std::string lacks;
+        if (const std::string other = fault([&] { lacks = lacks_before(folder_, c); });
+            !other.empty())
+          judge("restart", other, "");
+        std::istringstream lines(lacks);
+        for (std::string text; std::getline(lines, text);) line("restart", text);
+      }
       is_newest = false;
     }
     if (!has_any) line("checkpoints", "none");

@@ -45,7 +45,8 @@ dem::RigidWall make_pile(const PileCase& c)
                               dem::Vec3::Zero(), c.contact);
 }
 
-Installation::Installation(const PileCase& c, CoupledSystem& coupled, PileOutput* output)
+Installation::Installation(const PileCase& c, coupling::CoupledSystem& coupled,
+                           PileOutput* output)
     : case_(c), coupled_(coupled), output_(output), rate_(c), next_record_(c.record_every)
 {
 }
@@ -124,7 +125,7 @@ std::string Installation::now() const
   return out.str();
 }
 
-PileRecord Installation::new_record(const CoupledSystem::EnergyBalances& energy_balances)
+PileRecord Installation::new_record(const coupling::EnergyBalances& energy_balances)
 {
   const double half_to_full = 2.0;
   const double area = 0.25 * dem::pi * case_.diameter * case_.diameter;
@@ -153,7 +154,7 @@ PileRecord Installation::new_record(const CoupledSystem::EnergyBalances& energy_
   const double input = start_.assembly.stored() +
                        std::abs(energy_balances.assembly.rigid_wall_work) +
                        std::abs(energy_balances.assembly.gravity - start_.assembly.gravity);
-  const double error = CoupledSystem::unexplained(energy_balances, start_);
+  const double error = coupling::unexplained(energy_balances, start_);
   r.energy_error = input > 0.0 ? error / input : 0.0;
   force_ = {};
   return r;

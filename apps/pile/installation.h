@@ -2,9 +2,10 @@
 /// penetration rate, and records and frames are written.
 #pragma once
 
-#include "apps/coupled/coupled_system.h"
+#include "apps/coupled/system_of_case.h"
 #include "apps/pile/penetration_rate.h"
 #include "apps/pile/pile_output.h"
+#include "dem/io/state/named_numbers.h"
 
 #include <functional>
 #include <string>
@@ -30,6 +31,15 @@ struct MeanForce {
   void add(const dem::RigidWall& pile);
 };
 
+/// A push of the pile, from rest to rest: depths of the tip [m].
+struct Push {
+  double start = 0.0; ///< where it starts
+  double end = 0.0;   ///< where it is to end
+  double tip = 0.0;   ///< where it is
+
+  bool is_over() const { return tip >= end; }
+};
+
 /// The pile with its tip at the surface, at rest.
 dem::RigidWall make_pile(const PileCase& c);
 
@@ -39,15 +49,12 @@ class Installation {
 public:
   /// All arguments must outlive the object.
   /// @param output null on all ranks but the first
-  Installation(const PileCase& c, CoupledSystem& coupled, PileOutput* output);
+  Installation(const PileCase& c, coupling::CoupledSystem& coupled, PileOutput* output);
 
   /// Whether the state was saved after the penetration began.
-  static bool is_in(const dem::State& state) { return state.has("pile_numbers"); }
-  /// Depth of the tip in that state [m].
-  static double travelled_in(const dem::State& state)
-  {
-    return -state.get_rows<double>("rigid0_x", 1, 3)[2];
-  }
+  static bool is_in(const dem::State& state) { return state.has("push"); }
+  /// The push in that state. @throws InputError when it is not there
+  static Push push_in(const dem::State& state);
 
   /// Place the pile with its tip at the surface of the system in equilibrium.
   void begin();
@@ -55,14 +62,14 @@ public:
   /// Add the numbers and counts of the penetration to a state. CoupledSystem::save() adds
   /// those of assembly and pile.
   void save(dem::State& state) const;
-  /// Continue from the numbers of save(). @throws InputError when the state is of another
-  /// run
+  /// Continue from the numbers of save(). Where the push is over and the case goes deeper,
+  /// another push starts. @throws InputError when the state is of another run
   void load(const dem::State& state);
   /// Set the next record, or frame, after its spacing was changed.
   void space_records_anew();
   void space_frames_anew();
 
-  /// Push the pile down to its final depth.
+  /// Push the pile down to its final depth, if it is not there.
   /// @param after_step called between two steps, for checkpoints
   /// @throws Unstable when a step fails or the energy error exceeds 0.01
   void run(const std::function<void()>& after_step);
@@ -74,9 +81,10 @@ public:
   const BreakageCount& breakage() const { return breakage_; }
   std::size_t n_bonds() const { return n_bonds_; }     ///< of all kinds, at the start
   std::size_t n_between() const { return n_between_; } ///< of these, between particles
+  std::size_t n_pushes() const { return n_pushes_; }   ///< the present one included
+  double travelled() const;                            ///< depth of the tip [m]
 
 private:
-  double travelled() const; ///< depth of the tip [m]
   double next_frame() const ///< depth of the tip [m]
   {
     return rate_.travel() * static_cast<double>(n_frames_) / case_.frames;
@@ -84,20 +92,22 @@ private:
   void count_bonds();
   void frame();
   void record();
-  PileRecord new_record(const CoupledSystem::EnergyBalances& energy_balances);
+  PileRecord new_record(const coupling::EnergyBalances& energy_balances);
   std::string now() const;
 
-  /// Pointers to every number of a run, to save and load it; `self` may be const.
+  void push_further();
+
+  /// Every number of a run by its name, to save and load it; `self` may be const.
   template <class Self>
-  static auto numbers_of(Self& self);
+  static dem::NumbersOf<Self> numbers_of(Self& self);
   template <class Self>
-  static auto counts_of(Self& self);
+  static dem::CountsOf<Self> counts_of(Self& self);
 
   const PileCase& case_;
-  CoupledSystem& coupled_;
+  coupling::CoupledSystem& coupled_;
   PileOutput* output_;
   PenetrationRate rate_;
-  CoupledSystem::EnergyBalances start_;
+  coupling::EnergyBalances start_;
   BreakageCount breakage_;
   MeanForce force_;
   PileRecord last_;
@@ -106,6 +116,7 @@ private:
   std::size_t n_frames_ = 0; ///< frames that were due so far, the first included
   coupling::InterfaceBalance worst_interface_;
   std::size_t n_bonds_ = 0, n_between_ = 0;
+  std::size_t n_pushes_ = 1;
 };
 
 } // namespace mergel::apps

@@ -1,60 +1,114 @@
-/// Saving and loading an installation: its numbers and counts in a fixed order.
+/// Saving and loading an installation: each number by its name.
 #include "apps/pile/installation.h"
+#include "dem/io/state/energy_numbers.h"
 
 #include <cmath>
-#include <type_traits>
 
 namespace mergel::apps {
 
-template <class Self>
-auto Installation::numbers_of(Self& self)
+namespace {
+
+template <class Numbers, class Balance>
+void append(Numbers& to, const std::string& of, Balance& b)
 {
-  using Number = std::conditional_t<std::is_const_v<Self>, const double, double>;
-  std::vector<Number*> all{&self.time_,        &self.q_peak_,    &self.worst_energy_error_,
-                           &self.next_record_, &self.force_.tip, &self.force_.shaft};
-  for (auto* b : {&self.worst_interface_, &self.last_.interface})
-    all.insert(all.end(), {&b->force, &b->moment, &b->power});
+  to.insert(to.end(), {{of + "interface force error [-]", &b.force},
+                       {of + "interface moment error [-]", &b.moment},
+                       {of + "interface power error [-]", &b.power}});
+}
+
+template <class Numbers, class Energies>
+void append_structures(Numbers& to, const std::string& of, Energies& e)
+{
+  to.insert(to.end(), {{of + "kinetic [J]", &e.kinetic},
+                       {of + "strain [J]", &e.strain},
+                       {of + "work of the particles [J]", &e.wall_work},
+                       {of + "work of gravity [J]", &e.gravity_work},
+                       {of + "applied work [J]", &e.applied_work},
+                       {of + "damping [J]", &e.damping}});
+}
+
+template <class Self>
+dem::NumbersOf<Self> numbers_of_push(Self& push)
+{
+  return {{"tip depth at the start [m]", &push.start},
+          {"tip depth at the end [m]", &push.end},
+          {"tip depth [m]", &push.tip}};
+}
+
+} // namespace
+
+template <class Self>
+dem::NumbersOf<Self> Installation::numbers_of(Self& self)
+{
   auto& r = self.last_;
-  all.insert(all.end(), {&r.time, &r.depth, &r.tip_depth, &r.F_tip, &r.F_shaft, &r.q_c,
-                         &r.unbalanced, &r.kinetic, &r.energy_error});
-  for (auto* e : {&self.start_.assembly, &self.last_.balance})
-    all.insert(all.end(),
-               {&e->kinetic, &e->bonds, &e->contacts, &e->walls, &e->mirror, &e->gravity,
-                &e->wall_work, &e->rigid_wall_work, &e->slip, &e->plastic,
-                &e->breakage_release, &e->rotation_constraint, &e->damping});
-  auto& f = self.start_.far_field;
-  all.insert(all.end(), {&f.kinetic, &f.strain, &f.interface_work, &f.gravity_work,
-                         &f.initial_stress_work, &f.damping});
+  dem::NumbersOf<Self> all{{"time [s]", &self.time_},
+                           {"largest q_c [Pa]", &self.q_peak_},
+                           {"largest energy error [-]", &self.worst_energy_error_},
+                           {"tip depth at the next record [m]", &self.next_record_},
+                           {"sum of tip forces since the record [N]", &self.force_.tip},
+                           {"sum of shaft forces since the record [N]", &self.force_.shaft},
+                           {"record: time [s]", &r.time},
+                           {"record: depth [m]", &r.depth},
+                           {"record: tip depth [m]", &r.tip_depth},
+                           {"record: tip force [N]", &r.F_tip},
+                           {"record: shaft force [N]", &r.F_shaft},
+                           {"record: q_c [Pa]", &r.q_c},
+                           {"record: unbalanced-force ratio [-]", &r.unbalanced},
+                           {"record: kinetic energy [J]", &r.kinetic},
+                           {"record: energy error [-]", &r.energy_error}};
+  append(all, "largest ", self.worst_interface_);
+  append(all, "record: ", r.interface);
+  dem::append_energies(all, "record: ", r.balance);
+  dem::append_energies(all, "start: ", self.start_.assembly);
+  append_structures(all, "start, structures: ", self.start_.structures);
   return all;
 }
 
 template <class Self>
-auto Installation::counts_of(Self& self)
+dem::CountsOf<Self> Installation::counts_of(Self& self)
 {
-  using Count = std::conditional_t<std::is_const_v<Self>, const std::size_t, std::size_t>;
-  return std::vector<Count*>{
-      &self.force_.n,        &self.last_.broken, &self.breakage_.all, &self.breakage_.near,
-      &self.breakage_.above, &self.n_frames_,    &self.n_bonds_,      &self.n_between_};
+  return {{"steps since the record", &self.force_.n},
+          {"record: broken bonds", &self.last_.broken},
+          {"breakages between particles", &self.breakage_.all},
+          {"breakages near the axis", &self.breakage_.near},
+          {"breakages above the shoulder", &self.breakage_.above},
+          {"frames due so far", &self.n_frames_},
+          {"bonds", &self.n_bonds_},
+          {"bonds between particles", &self.n_between_},
+          {"pushes", &self.n_pushes_}};
 }
 
 void Installation::save(dem::State& state) const
 {
-  std::vector<double> numbers;
-  for (const double* a : numbers_of(*this)) numbers.push_back(*a);
-  std::vector<std::uint64_t> counts;
-  for (const std::size_t* n : counts_of(*this)) counts.push_back(*n);
-  state.add_common("pile_numbers", std::move(numbers));
-  state.add_common("pile_counts", std::move(counts));
+  const Push push{rate_.start(), rate_.travel(), travelled()};
+  dem::save_numbers(state, "push", numbers_of_push(push));
+  dem::save_numbers(state, "pile_numbers", numbers_of(*this));
+  dem::save_counts(state, "pile_counts", counts_of(*this));
+}
+
+Push Installation::push_in(const dem::State& state)
+{
+  Push push;
+  dem::load_numbers(state, "push", numbers_of_push(push));
+  return push;
 }
 
 void Installation::load(const dem::State& state)
 {
-  const auto all = numbers_of(*this);
-  const auto& numbers = state.get_rows<double>("pile_numbers", all.size());
-  for (std::size_t k = 0; k < all.size(); ++k) *all[k] = numbers[k];
-  const auto all_counts = counts_of(*this);
-  const auto& counts = state.get_rows<std::uint64_t>("pile_counts", all_counts.size());
-  for (std::size_t k = 0; k < all_counts.size(); ++k) *all_counts[k] = counts[k];
+  dem::load_numbers(state, "pile_numbers", numbers_of(*this));
+  dem::load_counts(state, "pile_counts", counts_of(*this));
+  const Push push = push_in(state);
+  rate_ = PenetrationRate(case_, push.start);
+  if (push.is_over() && travelled() < rate_.travel()) push_further();
+}
+
+/// The pile stands at its old end; what it does from there does not depend on that end.
+void Installation::push_further()
+{
+  rate_ = PenetrationRate(case_, travelled());
+  ++n_pushes_;
+  space_records_anew();
+  space_frames_anew();
 }
 
 void Installation::space_records_anew()

@@ -1,182 +1,185 @@
 /// mergel pile: installs a pile in bonded rock at a penetration rate.
-#include "apps/case/words.h"
 #include "apps/pile/installation.h"
 #include "apps/pile/pile_summary.h"
-#include "apps/run/jobs.h"
-#include "apps/run/output_folder.h"
+#include "apps/run/protocol.h"
 #include "apps/run/ranks.h"
-#include "apps/run/restart.h"
-#include "apps/run/shared_folder.h"
 #include "apps/specimen/specimen.h"
-#include "dem/io/atomic_file.h"
-#include "dem/text.h"
-#include "dem/timer.h"
 
 #include <algorithm>
 #include <iostream>
 #include <optional>
+#include <sstream>
 
 namespace mergel::apps {
 
-void help_pile(std::ostream& out)
-{
-  CaseFile file;
-  PileCase c;
-  declare(file, c);
-  file.help(out);
-}
-
 namespace {
 
-/// Keys that a restart may change.
-const std::vector<std::string> free_keys{
-    "Pile/final depth", "Motion/time step safety", "Output/record every",
-    "Output/frames",    "Output/checkpoint every", "Specimen/file"};
+class PileJob : public CheckpointedJob {
+public:
+  const char* name() const override { return "pile"; }
+  void declare(CaseFile& file) override { apps::declare(file, case_); }
+  void complete(CaseFile& file) override { apps::complete(file, case_); }
+  const CheckpointKey& checkpoints() const override { return case_.checkpoints; }
+  std::vector<std::filesystem::path> inputs() const override
+  {
+    return {case_.assembly.sample, case_.assembly.table};
+  }
+  std::vector<std::string> free_keys() const override
+  {
+    return {"Pile/final depth", "Output/record every", "Output/frames"};
+  }
 
-/// Refuse another final depth once the pile slows down for the old or the new one: the
-/// velocity near the end depends on the final depth.
-void check_new_end(const CaseFile& file, const PileCase& c, const Restart& restart)
-{
-  if (!Installation::is_in(restart.checkpoint.state)) return;
-  CaseFile earlier_file;
-  PileCase earlier;
-  declare(earlier_file, earlier);
-  earlier_file.read_text(restart.checkpoint.label.case_text, restart.file.string());
-  if (earlier.travel() == c.travel()) return;
-  const double travelled = Installation::travelled_in(restart.checkpoint.state);
-  if (travelled <= std::min(PenetrationRate(earlier).slows_down_at(),
-                            PenetrationRate(c).slows_down_at()))
-    return;
-  const auto mm = [](double x) { return dem::shortest(1e3 * x) + " mm"; };
-  file.refuse("Pile", "final depth",
-              "was " + mm(earlier.final_depth) +
-                  ", and in the checkpoint, with the tip at " + mm(travelled) +
-                  ", the pile has begun to slow down for one of the two depths: "
-                  "restore it, or choose an older checkpoint");
-}
+  void check_restart(const CaseFile& file, const Restart& restart) const override;
+  std::string what_is_done(const Restart& restart) const override;
 
-/// Steps and wall-clock time of the run before this start of the program [-], [s].
-struct WorkBefore {
-  std::size_t n_steps = 0;
-  double seconds = 0.0;
+  void begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm) override;
+  void resume(Restart& restart, RunFolder& folder, MPI_Comm comm) override;
+  void run(const std::function<void()>& after_step) override;
+  CheckpointScheduler::Position position() const override
+  {
+    return {coupled_->n_steps, coupled_->time,
+            is_penetrating_ ? "penetration" : "settling"};
+  }
+  void save(dem::State& state) const override;
+  void require_files() const override
+  {
+    on_first_rank([&] { output_->require_in_place(); });
+  }
+  void summarise(Summary& summary, const Work& work) const override;
+
+private:
+  const PileOutput* output() const { return output_ ? &*output_ : nullptr; }
+  void make_installation();
+
+  PileCase case_;
+  std::optional<PileOutput> output_; ///< on the first rank
+  std::optional<coupling::CoupledSystem> coupled_;
+  std::optional<Installation> installation_;
+  bool is_penetrating_ = false;
 };
 
-WorkBefore load_work(const dem::Checkpoint& checkpoint)
+/// A length [m] in millimetres, with six digits.
+std::string mm(double x)
 {
-  return {checkpoint.label.step, checkpoint.state.get_rows<double>("seconds", 1).front()};
+  std::ostringstream out;
+  out << 1e3 * x << " mm";
+  return out.str();
 }
 
-void go_on(Installation& run, const Restart& restart)
+/// Refuse another final depth once the pile slows down for the old or the new one: the
+/// velocity near the end depends on the final depth. At its old end the pile may go deeper.
+void PileJob::check_restart(const CaseFile& file, const Restart& restart) const
 {
-  run.load(restart.checkpoint.state);
-  for (const CaseFile::Change& c : restart.changed) {
-    if (c.key == "record every") run.space_records_anew();
-    if (c.key == "final depth" || c.key == "frames") run.space_frames_anew();
+  if (!Installation::is_in(restart.checkpoint.state)) return;
+  const CaseFile::Change* change = find_change(restart, "Pile", "final depth");
+  if (!change) return;
+  const Push push = Installation::push_in(restart.checkpoint.state);
+  const double end = case_.travel();
+  if (push.is_over()) {
+    if (end > push.tip) return;
+    file.refuse("Pile", "final depth",
+                "was " + change->was +
+                    ", where the pile stands in the checkpoint: it can only go deeper. "
+                    "Raise it, or choose an older checkpoint");
   }
+  if (push.tip <= std::min(push.end, end) - PenetrationRate(case_).ramp()) return;
+  file.refuse("Pile", "final depth",
+              "was " + change->was + ", and in the checkpoint, with the tip at " +
+                  mm(push.tip) +
+                  ", the pile has begun to slow down for one of the two depths: "
+                  "restore it, and raise it when the run is finished; or choose an older "
+                  "checkpoint");
+}
+
+std::string PileJob::what_is_done(const Restart& restart) const
+{
+  if (!Installation::is_in(restart.checkpoint.state)) return "";
+  if (Installation::push_in(restart.checkpoint.state).tip < case_.travel()) return "";
+  return "the pile is at its final depth, " + mm(case_.final_depth) +
+         ". To push it further, restart with a larger `Pile/final depth`.";
+}
+
+void PileJob::make_installation()
+{
+  installation_.emplace(case_, *coupled_, output_ ? &*output_ : nullptr);
+}
+
+void PileJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
+{
+  fem::FarField far_field = make_far_field(case_.assembly, comm);
+  const dem::Sample sample = obtain_sample(file, case_.assembly);
+  std::cout << far_field.summary() << '\n' << report(case_.assembly, sample) << '\n';
+  folder.prepare();
+  on_first_rank([&] {
+    dem::write_sample(folder.path() / "sample.h5", sample);
+    output_.emplace(folder.path(), case_);
+  });
+  coupled_.emplace(coupled_spec(case_.assembly),
+                   structures(case_.assembly, std::move(far_field)),
+                   sample.packing.particles, sample.bonding, comm);
+  make_installation();
+}
+
+void PileJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
+{
+  dem::State& state = restart.checkpoint.state;
+  on_first_rank([&] { std::cout << PileOutput::check(restart.folder, state); });
+  fem::FarField far_field = make_far_field(case_.assembly, comm);
+  std::cout << far_field.summary() << '\n';
+  is_penetrating_ = Installation::is_in(state);
+  std::vector<dem::RigidWall> piles;
+  if (is_penetrating_) piles.push_back(make_pile(case_));
+  coupled_.emplace(coupled_spec(case_.assembly),
+                   structures(case_.assembly, std::move(far_field)), state,
+                   std::move(piles), comm);
+  if (find_change(restart, "Motion", "time step safety")) coupled_->lower_time_step(true);
+  folder.prepare();
+  on_first_rank([&] { output_.emplace(folder.path(), case_, restart.folder, state); });
+  make_installation();
+  if (!is_penetrating_) return;
+  installation_->load(state);
+  if (const Push before = Installation::push_in(state);
+      before.is_over() && before.tip < case_.travel())
+    std::cout << "the pile starts again from rest, " << mm(before.tip - case_.tip_height())
+              << " deep: the curve is that of " << installation_->n_pushes() << " pushes\n";
+  if (find_change(restart, "Output", "record every")) installation_->space_records_anew();
+  if (find_change(restart, "Pile", "final depth") ||
+      find_change(restart, "Output", "frames"))
+    installation_->space_frames_anew();
+}
+
+void PileJob::run(const std::function<void()>& after_step)
+{
+  equilibrate(*coupled_, case_.assembly.unbalanced_tolerance, 200'000, after_step);
+  if (!is_penetrating_) installation_->begin();
+  is_penetrating_ = true;
+  installation_->run(after_step);
+}
+
+void PileJob::save(dem::State& state) const
+{
+  coupled_->save(state);
+  PileOutput::save(state, output());
+  if (is_penetrating_) installation_->save(state);
+}
+
+void PileJob::summarise(Summary& summary, const Work& work) const
+{
+  if (is_penetrating_) apps::summarise(summary, case_, *installation_, *coupled_, work);
 }
 
 } // namespace
 
+void help_pile(std::ostream& out)
+{
+  PileJob job;
+  print_keys(job, out);
+}
+
 int run_pile(const JobOptions& options)
 {
-  const double start = dem::wall_clock();
-  CaseFile file;
-  PileCase c;
-  FolderLock lock = hold_restarted(options);
-  std::optional<Restart> restart = resume(file, c, options, "pile", free_keys);
-  if (restart) {
-    on_every_rank([&] { check_new_end(file, c, *restart); });
-    std::cout << report(*restart) << '\n';
-  }
-  const auto inputs = inputs_of(options, restart, {c.assembly.sample, c.assembly.table});
-  OutputFolder folder = folder_of(options, restart, inputs, std::move(lock));
-  if (restart)
-    on_first_rank([&] { PileOutput::check(restart->folder, restart->checkpoint.state); });
-
-  fem::FarField far_field = make_far_field(c.assembly);
-  coupling::Interface interface = coupling::make_interface(
-      far_field.interface(), c.assembly.interface, c.assembly.collar_height);
-  std::optional<PileOutput> output;
-  std::optional<CoupledSystem> coupled;
-  if (restart) {
-    std::cout << far_field.summary() << '\n';
-    dem::State& state = restart->checkpoint.state;
-    std::vector<dem::RigidWall> piles;
-    if (Installation::is_in(state)) piles.push_back(make_pile(c));
-    coupled.emplace(c.assembly, state, std::move(piles), std::move(far_field),
-                    std::move(interface));
-    if (has_changed(*restart, "Motion", "time step safety")) coupled->lower_time_step(true);
-    on_first_rank([&] {
-      prepare_continued_folder(folder, inputs, file, *restart);
-      output.emplace(folder.path(), c, restart->folder, state);
-    });
-    require_shared(folder.path());
-    restart->file = checkpoint_in(folder.path(), *restart);
-  } else {
-    const dem::Sample sample = obtain_sample(file, c.assembly);
-    std::cout << far_field.summary() << '\n' << report(c.assembly, sample) << '\n';
-    on_first_rank([&] {
-      folder.commit(inputs);
-      file.write_resolved(folder.path() / "resolved.prm");
-      dem::write_sample(folder.path() / "sample.h5", sample);
-      output.emplace(folder.path(), c);
-    });
-    require_shared(folder.path());
-    coupled.emplace(c.assembly, sample, std::move(far_field), std::move(interface));
-  }
-
-  Installation run(c, *coupled, output ? &*output : nullptr);
-  const WorkBefore before = restart ? load_work(restart->checkpoint) : WorkBefore{};
-  const auto seconds = [&] { return before.seconds + dem::wall_clock() - start; };
-  CheckpointScheduler scheduler(
-      {.folder = folder.path(),
-       .job = "pile",
-       .case_text = file.resolved_text(),
-       .every = c.checkpoints.every,
-       .end = start + options.walltime,
-       .restarted_from = restart ? restart->file : std::filesystem::path{}});
-  bool is_penetrating = restart && Installation::is_in(restart->checkpoint.state);
-  if (is_penetrating) go_on(run, *restart);
-  restart.reset(); // its arrays are no longer needed
-  const auto after_step = [&] {
-    scheduler.after_step(
-        coupled->assembly.comm,
-        {coupled->n_steps, coupled->time, is_penetrating ? "penetration" : "settling"},
-        [&](dem::State& state) {
-          coupled->save(state);
-          PileOutput::save(state, output ? &*output : nullptr);
-          state.add_common<double>("seconds", {seconds()});
-          if (is_penetrating) run.save(state);
-        });
-  };
-  const auto summarise = [&](const char* name, const std::string& failure) {
-    const std::size_t n_debris = count_debris(coupled->assembly, c.assembly.collar_height);
-    on_first_rank([&] {
-      write_summary(folder.path() / name, run, *coupled, n_debris, seconds(), failure);
-    });
-    return n_debris;
-  };
-  try {
-    equilibrate(*coupled, c.assembly.unbalanced_tolerance, 200'000, after_step);
-    if (!is_penetrating) run.begin();
-    is_penetrating = true;
-    run.run(after_step);
-  } catch (...) {
-    scheduler.rethrow_with_remedy([&](const std::string& failure) {
-      if (is_penetrating) {
-        summarise("failed.json", failure);
-        return;
-      }
-      on_first_rank([&] {
-        dem::replace_file(folder.path() / "failed.json",
-                          "{\n  \"failure\": " + in_json(failure) + "\n}\n");
-      });
-    });
-  }
-  const std::size_t n_debris = summarise("summary.json", "");
-  print_summary(folder.path(), c, run, *coupled, n_debris,
-                {coupled->n_steps - before.n_steps, seconds()});
-  return 0;
+  PileJob job;
+  return run_job(job, options);
 }
 
 } // namespace mergel::apps

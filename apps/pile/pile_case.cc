@@ -32,13 +32,16 @@ void declare(CaseFile& file, PileCase& c)
     file.quantity("final depth", c.final_depth, "m", positive,
                   "Of the shoulder below the surface.", "mm");
     file.number("friction", c.friction, non_negative, "Between pile and particles.");
-    file.quantity("contact modulus", c.contact_modulus, "Pa", positive,
-                  "Effective modulus of the contact between pile and particles.", "GPa");
+    file.derived(
+        "contact modulus", c.contact_modulus, "Pa", positive, "2 Contact/effective modulus",
+        "Effective modulus of the contact between pile and particles; by default "
+        "twice that between particles, because the pile is rigid and only one side "
+        "yields.",
+        "GPa");
   }
   const auto section = file.section("Output");
-  c.record_every = 0.01e-3;
-  file.quantity("record every", c.record_every, "m", positive,
-                "Travel of the pile between two lines of history.csv.", "mm");
+  file.derived("record every", c.record_every, "m", positive, "Pile/diameter/100",
+               "Travel of the pile between two lines of history.csv.", "mm");
   file.integer("frames", c.frames, at_least(1.0),
                "Frames of all fields during the penetration, after the first.");
   declare(file, c.checkpoints);
@@ -61,6 +64,9 @@ void complete(CaseFile& file, PileCase& c)
                     ", less than a diameter above the floor of the DEM region at " +
                     mm(c.assembly.height) + "; lower it or raise `Specimen/height`");
   complete(file, c.checkpoints);
+  file.derive("Pile", "contact modulus",
+              dem::modulus_at_rigid_wall(c.assembly.material.contact));
+  file.derive("Output", "record every", 0.01 * c.diameter);
   c.contact = wall_contact(c.assembly.material.contact, c.contact_modulus, c.friction);
 }
 

@@ -1,5 +1,6 @@
 #include "apps/pile/pile_output.h"
 
+#include "apps/run/restart.h"
 #include "dem/error.h"
 #include "dem/io/assembly_fields.h"
 #include "dem/io/atomic_file.h"
@@ -67,10 +68,10 @@ void PileOutput::save(dem::State& state, const PileOutput* output)
   Frames::save(state, output ? &output->frames_ : nullptr);
 }
 
-void PileOutput::check(const std::filesystem::path& folder, const dem::State& state)
+std::string PileOutput::check(const std::filesystem::path& folder, const dem::State& state)
 {
-  dem::check_history(folder / "history.csv", mark_in(state));
-  Frames::check(folder, kinds, state);
+  return report_on_history(folder / "history.csv", mark_in(state)) +
+         Frames::check(folder, kinds, state);
 }
 
 void PileOutput::record(const PileRecord& r)
@@ -84,15 +85,16 @@ void PileOutput::record(const PileRecord& r)
 }
 
 void PileOutput::frame(double time, const dem::Assembly& assembly,
-                       const CoupledSystem& coupled)
+                       const coupling::CoupledSystem& coupled)
 {
+  require_in_place();
   dem::write_particles(frames_.file(0), assembly, coupled.x_0);
   dem::write_bonds(frames_.file(1), assembly);
   const dem::RigidWall& pile = assembly.rigid_walls.front();
   dem::write_revolution(frames_.file(2), std::get<dem::Revolution>(pile.shape), pile.x,
                         2.0 * diameter_);
   dem::replace_file(frames_.file(3), [&](const std::filesystem::path& path) {
-    coupled.far_field.write_vtu(path);
+    far_field_of(coupled).write_vtu(path);
   });
   frames_.add(time);
 }

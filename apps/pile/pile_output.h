@@ -1,7 +1,7 @@
 /// Results of a pile run: history.csv and the frames for ParaView.
 #pragma once
 
-#include "apps/coupled/coupled_system.h"
+#include "apps/coupled/system_of_case.h"
 #include "apps/pile/pile_case.h"
 #include "apps/run/frames.h"
 #include "dem/io/history.h"
@@ -32,20 +32,24 @@ public:
   PileOutput(const std::filesystem::path& folder, const PileCase& c);
   /// Continue the files that the folder `earlier`, which may be `folder`, held when save()
   /// wrote `state`.
-  /// @throws InputError when they do not go as far as `state` says
+  /// @throws InputError when the history is another one
   PileOutput(const std::filesystem::path& folder, const PileCase& c,
              const std::filesystem::path& earlier, const dem::State& state);
 
   /// Add the length of the history and the times of the frames, all of them on the disk.
   /// @param output null on all ranks but the first
   static void save(dem::State& state, const PileOutput* output);
-  /// @throws InputError when the files of `folder` do not go as far as `state` says
-  static void check(const std::filesystem::path& folder, const dem::State& state);
+  /// Lines on what `folder` lacks of the results before `state`; "" when it lacks nothing.
+  /// @throws InputError when its history is another one
+  static std::string check(const std::filesystem::path& folder, const dem::State& state);
 
   void record(const PileRecord& r);
+  /// @throws NumericalError when another program has touched the history
+  void require_in_place() const { history_.require_in_place(); }
   /// Particles, bonds, pile and far field at this time [s].
   /// @param assembly gathered: all particles
-  void frame(double time, const dem::Assembly& assembly, const CoupledSystem& coupled);
+  void frame(double time, const dem::Assembly& assembly,
+             const coupling::CoupledSystem& coupled);
 
 private:
   double diameter_;

@@ -1,12 +1,7 @@
 #include "apps/pile/pile_summary.h"
 
-#include "apps/case/words.h"
 #include "apps/run/progress.h"
-#include "dem/io/atomic_file.h"
-#include "dem/text.h"
-#include "dem/timer.h"
 
-#include <iostream>
 #include <sstream>
 
 namespace mergel::apps {
@@ -26,12 +21,12 @@ struct Part {
   double seconds;
 };
 
-/// Time of a step, and the parts of it in per cent.
-std::string time_by_parts(const CoupledSystem& coupled, const Work& work)
+/// Time of a step, and the parts of it in per cent; nothing without a step.
+std::string time_by_parts(const coupling::CoupledSystem& coupled, const Work& work)
 {
+  if (work.n_steps == 0) return "";
   const dem::StepTimes& t = coupled.assembly.times;
-  const double far = coupled.exchange.far_field_seconds,
-               ex = coupled.exchange.exchange_seconds;
+  const double far = coupled.structure_seconds(), ex = coupled.exchange_seconds();
   const double whole = t.total() + far + ex;
   std::ostringstream out;
   out.precision(3);
@@ -48,76 +43,71 @@ std::string time_by_parts(const CoupledSystem& coupled, const Work& work)
                         {"far field", far},
                         {"coupling", ex}})
     out << ' ' << s.name << ' ' << 100.0 * s.seconds / whole << " %,";
-  out << " whole run " << duration_text(work.seconds);
+  out << ' ';
   return out.str();
+}
+
+void add_figures(Summary& s, const Installation& run,
+                 const coupling::CoupledSystem& coupled, std::size_t n_debris,
+                 double seconds)
+{
+  const PileRecord& r = run.last();
+  const BreakageCount& broken = run.breakage();
+  s.number("depth [m]", r.depth);
+  s.number("tip depth [m]", r.tip_depth);
+  s.count("pushes [-]", run.n_pushes());
+  s.number("q_c [Pa]", r.q_c);
+  s.number("largest q_c [Pa]", run.peak());
+  s.number("tip force of the full pile [N]", r.F_tip);
+  s.number("shaft force of the full pile [N]", r.F_shaft);
+  s.count("bonds [-]", run.n_bonds());
+  s.count("bonds broken [-]", r.broken);
+  s.count("bonds between particles [-]", run.n_between());
+  s.count("broken between particles [-]", broken.all);
+  s.count("broken within 2 D_p of the axis [-]", broken.near);
+  s.count("broken more than D_p above the shoulder [-]", broken.above);
+  s.count("particles above the collar [-]", n_debris);
+  s.number("largest energy error [-]", run.worst_energy_error());
+  s.number("largest interface force error [-]", run.worst_interface().force);
+  s.number("largest interface moment error [-]", run.worst_interface().moment);
+  s.number("largest interface power error [-]", run.worst_interface().power);
+  s.count("particles [-]", coupled.assembly.particles.size());
+  s.count("far-field cells [-]", far_field_of(coupled).n_cells());
+  s.count("steps [-]", coupled.n_steps);
+  s.number("time step [s]", coupled.dt);
+  s.number("wall-clock time [s]", seconds);
 }
 
 } // namespace
 
-void write_summary(const std::filesystem::path& file, const Installation& run,
-                   const CoupledSystem& coupled, std::size_t n_debris, double seconds,
-                   const std::string& failure)
+void summarise(Summary& summary, const PileCase& c, const Installation& run,
+               const coupling::CoupledSystem& coupled, const Work& work)
 {
-  const PileRecord& r = run.last();
-  const BreakageCount& broken = run.breakage();
-  std::ostringstream out;
-  const auto number = [&](const char* name, double value, const char* end = ",\n") {
-    out << "  \"" << name << "\": " << dem::shortest(value) << end;
-  };
-  const auto count = [](std::size_t n) { return static_cast<double>(n); };
-  out << "{\n";
-  if (!failure.empty()) out << "  \"failure\": " << in_json(failure) << ",\n";
-  number("depth [m]", r.depth);
-  number("tip depth [m]", r.tip_depth);
-  number("q_c [Pa]", r.q_c);
-  number("largest q_c [Pa]", run.peak());
-  number("tip force of the full pile [N]", r.F_tip);
-  number("shaft force of the full pile [N]", r.F_shaft);
-  number("bonds [-]", count(run.n_bonds()));
-  number("bonds broken [-]", count(r.broken));
-  number("bonds between particles [-]", count(run.n_between()));
-  number("broken between particles [-]", count(broken.all));
-  number("broken within 2 D_p of the axis [-]", count(broken.near));
-  number("broken more than D_p above the shoulder [-]", count(broken.above));
-  number("particles above the collar [-]", count(n_debris));
-  number("largest energy error [-]", run.worst_energy_error());
-  number("largest interface force error [-]", run.worst_interface().force);
-  number("largest interface moment error [-]", run.worst_interface().moment);
-  number("largest interface power error [-]", run.worst_interface().power);
-  number("particles [-]", count(coupled.assembly.particles.size()));
-  number("far-field cells [-]", count(coupled.far_field.n_cells()));
-  number("steps [-]", count(coupled.n_steps));
-  number("time step [s]", coupled.dt);
-  number("wall-clock time [s]", seconds, "\n");
-  out << "}\n";
-  dem::replace_file(file, out.str());
-}
-
-void print_summary(const std::filesystem::path& folder, const PileCase& c,
-                   const Installation& run, const CoupledSystem& coupled,
-                   std::size_t n_debris, const Work& work)
-{
+  const std::size_t n_debris = count_debris(coupled.assembly, c.assembly.collar_height);
+  add_figures(summary, run, coupled, n_debris, work.seconds);
   const PileRecord& r = run.last();
   const BreakageCount& broken = run.breakage();
   const auto percent = [](std::size_t part, std::size_t whole) {
     return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
   };
-  std::cout.precision(4);
-  std::cout << "\npile at " << 1e3 * r.depth << " mm (" << r.depth / c.diameter
-            << " D_p): q_c " << 1e-6 * r.q_c << " MPa, largest " << 1e-6 * run.peak()
-            << " MPa; tip " << r.F_tip << " N, shaft " << r.F_shaft << " N (full pile)\n"
-            << "bonds broken: " << r.broken << " of " << run.n_bonds() << ", " << broken.all
-            << " of them between particles: " << percent(broken.near, broken.all)
-            << " % within 2 D_p of the axis, " << broken.above
-            << " more than D_p above the shoulder when they broke; " << n_debris
-            << " particles are above the collar\n"
-            << "largest energy error " << 100.0 * run.worst_energy_error()
-            << " % of the input; largest interface errors " << run.worst_interface().force
-            << " (force), " << run.worst_interface().moment << " (moment), "
-            << run.worst_interface().power << " (power)\n"
-            << time_by_parts(coupled, work) << "\nresults: " << folder.string()
-            << " (history.csv, summary.json, *.pvd for ParaView); pictures: mergel-view "
-            << folder.string() << "\n";
+  std::ostream& out = summary.closing;
+  out.precision(4);
+  out << "pile at " << 1e3 * r.depth << " mm (" << r.depth / c.diameter << " D_p): q_c "
+      << 1e-6 * r.q_c << " MPa, largest " << 1e-6 * run.peak() << " MPa; tip " << r.F_tip
+      << " N, shaft " << r.F_shaft << " N (full pile)\n";
+  if (run.n_pushes() > 1)
+    out << "the pile was pushed " << run.n_pushes()
+        << " times, and slowed down at the end of each push\n";
+  out << "bonds broken: " << r.broken << " of " << run.n_bonds() << ", " << broken.all
+      << " of them between particles: " << percent(broken.near, broken.all)
+      << " % within 2 D_p of the axis, " << broken.above
+      << " more than D_p above the shoulder when they broke; " << n_debris
+      << " particles are above the collar\n"
+      << "largest energy error " << 100.0 * run.worst_energy_error()
+      << " % of the input; largest interface errors " << run.worst_interface().force
+      << " (force), " << run.worst_interface().moment << " (moment), "
+      << run.worst_interface().power << " (power)\n"
+      << time_by_parts(coupled, work) << "whole run " << duration_text(work.seconds);
 }
 
 } // namespace mergel::apps

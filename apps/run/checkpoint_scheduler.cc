@@ -72,6 +72,9 @@ void declare(CaseFile& file, CheckpointKey& key)
       "checkpoint every", key.text,
       "Wall-clock time or steps between checkpoints (10 min, 5000 steps), or never; the "
       "last two are kept.");
+  file.flag("checkpoint at end", key.at_end,
+            "Write a checkpoint when the run is finished; --restart takes the run further "
+            "from it.");
 }
 
 void complete(const CaseFile& file, CheckpointKey& key)
@@ -89,10 +92,9 @@ CheckpointScheduler::CheckpointScheduler(CheckpointSchedule spec)
 {
 }
 
-CheckpointScheduler::Wish CheckpointScheduler::wish_here(const dem::Communicator& comm,
-                                                         const Position& at)
+int CheckpointScheduler::wish_here(const dem::Communicator& comm, const Position& at)
 {
-  if (signals_.wants_stop()) return stop;
+  if (const int signal = signals_.stop(); signal != 0) return stop + signal;
   const double now = spec_.clock();
   between_ = std::max(between_, now - asked_);
   asked_ = now;
@@ -115,13 +117,13 @@ void CheckpointScheduler::after_step(const dem::Communicator& comm, const Positi
     longest_ = n_bytes(mine, comm) / lowest_rate;
     has_estimate_ = true;
   }
-  const auto wish = static_cast<Wish>(
-      static_cast<int>(comm.global_max(static_cast<double>(wish_here(comm, at)))));
+  const int wish =
+      static_cast<int>(comm.global_max(static_cast<double>(wish_here(comm, at))));
   if (wish == none) return;
   write_now(comm, at, save);
   if (wish == write) return;
-  throw Stopped(std::string(wish == stop ? "stopped by SIGTERM"
-                                         : "stopped before the end of --walltime") +
+  throw Stopped((wish > stop ? "stopped by " + name_of_signal(wish - stop)
+                             : "stopped before the end of --walltime") +
                 " at step " + std::to_string(at.step) + ", t = " + dem::shortest(at.time) +
                 " s (" + at.phase + "), checkpoint " + last_.string() + ". " +
                 how_to_continue());
@@ -148,6 +150,19 @@ void CheckpointScheduler::write_now(const dem::Communicator& comm, const Positio
   longest_ = n_written_ == 0 ? written_ - start : std::max(longest_, written_ - start);
   has_estimate_ = true;
   ++n_written_;
+}
+
+void CheckpointScheduler::at_end(const dem::Communicator& comm, Position at,
+                                 const std::function<void(dem::State&)>& save)
+{
+  at.phase = "finished";
+  try {
+    write_now(comm, at, save);
+  } catch (const CollectiveFailure& e) {
+    throw Remedied(std::string("the results are complete, but the run cannot be taken "
+                               "further from its end: ") +
+                   e.what());
+  }
 }
 
 std::string CheckpointScheduler::how_to_continue() const

@@ -22,12 +22,13 @@ struct Cadence {
 /// "10 min", "5000 steps" or "never". @throws InputError with the expected form
 Cadence to_cadence(const std::string& text);
 
-/// Key `Output/checkpoint every`.
+/// Keys `Output/checkpoint every` and `checkpoint at end`.
 struct CheckpointKey {
   std::string text = "10 min";
-  Cadence every; ///< value of the text, set by complete()
+  Cadence every;      ///< value of the text, set by complete()
+  bool at_end = true; ///< write one when the run is finished
 };
-/// Declare the key in the open section. @pre file.section("Output") is open
+/// Declare the keys in the open section. @pre file.section("Output") is open
 void declare(CaseFile& file, CheckpointKey& key);
 /// @throws InputError naming file, line and key
 void complete(const CaseFile& file, CheckpointKey& key);
@@ -60,17 +61,23 @@ public:
   struct Position {
     std::uint64_t step;
     double time;       ///< [s]
-    const char* phase; ///< name of the phase
+    std::string phase; ///< its name
   };
 
   /// Call between steps, on all ranks. Writes a checkpoint when one is due: by time or
-  /// steps, after a rank received SIGUSR1 or SIGTERM, and before the walltime is over. The
+  /// steps, after a rank received a signal of Signals, and before the walltime is over. The
   /// results of the run do not depend on it, bit for bit.
   /// @param save adds the state of the run, each rank its part; collective
-  /// @throws Stopped after SIGTERM and before the end of the walltime; CollectiveFailure
+  /// @throws Stopped after SIGTERM, SIGINT or SIGHUP and before the end of the walltime;
+  ///   CollectiveFailure
   ///   when the checkpoint cannot be written, naming the last good one
   void after_step(const dem::Communicator& comm, const Position& at,
                   const std::function<void(dem::State&)>& save);
+
+  /// Write the checkpoint of a finished run, from which it can be taken further. Collective.
+  /// @throws CollectiveFailure when it cannot be written
+  void at_end(const dem::Communicator& comm, Position at,
+              const std::function<void(dem::State&)>& save);
 
   /// "; the last checkpoint is ..., continue with ...", for a message on a failure.
   std::string remedy() const;
@@ -87,8 +94,9 @@ public:
   std::size_t n_written() const { return n_written_; }
 
 private:
+  /// In the order of their weight; stop + the number of the signal.
   enum Wish : int { none, write, stop_in_time, stop };
-  Wish wish_here(const dem::Communicator& comm, const Position& at);
+  int wish_here(const dem::Communicator& comm, const Position& at);
   void write_now(const dem::Communicator& comm, const Position& at,
                  const std::function<void(dem::State&)>& save);
   std::string how_to_continue() const;

@@ -3,7 +3,9 @@
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <system_error>
 
 namespace mergel::apps {
 
@@ -22,6 +24,12 @@ const std::vector<double>& times_in(const dem::State& state)
   return state.get<double>("output_frames");
 }
 
+bool is_there(const std::filesystem::path& file)
+{
+  std::error_code error;
+  return std::filesystem::is_regular_file(file, error);
+}
+
 } // namespace
 
 void copy_atomically(const std::filesystem::path& from, const std::filesystem::path& to)
@@ -32,36 +40,31 @@ void copy_atomically(const std::filesystem::path& from, const std::filesystem::p
   });
 }
 
-Frames::Frames(const std::filesystem::path& folder, std::vector<Kind> kinds,
-               std::vector<double> times)
-    : fields_(folder / "fields"), kinds_(std::move(kinds)), times_(std::move(times))
-{
-  for (const Kind& kind : kinds_) {
-    std::vector<dem::SeriesEntry> entries;
-    for (const double time : times_)
-      entries.push_back(
-          {time, std::filesystem::path("fields") / frame_name(kind, entries.size())});
-    series_.emplace_back(folder / (std::string(kind.name) + ".pvd"), std::move(entries));
-  }
-}
-
 Frames::Frames(const std::filesystem::path& folder, std::vector<Kind> kinds)
-    : Frames(folder, std::move(kinds), std::vector<double>{})
+    : fields_(folder / "fields"), kinds_(std::move(kinds))
 {
+  for (const Kind& kind : kinds_)
+    series_.emplace_back(folder / (std::string(kind.name) + ".pvd"));
 }
 
 Frames::Frames(const std::filesystem::path& folder, std::vector<Kind> kinds,
                const std::filesystem::path& earlier, const dem::State& state)
-    : Frames(folder, std::move(kinds), times_in(state))
+    : Frames(folder, std::move(kinds))
 {
-  if (!times_.empty() && !std::filesystem::equivalent(folder, earlier)) {
-    std::filesystem::create_directories(fields_);
-    for (const Kind& kind : kinds_)
-      for (std::size_t k = 0; k < times_.size(); ++k)
-        copy_atomically(earlier / "fields" / frame_name(kind, k),
-                        fields_ / frame_name(kind, k));
+  times_ = times_in(state);
+  const bool is_elsewhere = !std::filesystem::equivalent(folder, earlier);
+  if (!times_.empty() && is_elsewhere) std::filesystem::create_directories(fields_);
+  for (std::size_t k = 0; k < kinds_.size(); ++k) {
+    std::vector<dem::SeriesEntry> entries;
+    for (std::size_t frame = 0; frame < times_.size(); ++frame) {
+      const std::string name = frame_name(kinds_[k], frame);
+      if (!is_there(earlier / "fields" / name)) continue;
+      if (is_elsewhere) copy_atomically(earlier / "fields" / name, fields_ / name);
+      entries.push_back({times_[frame], std::filesystem::path("fields") / name});
+    }
+    series_[k] = dem::Series(folder / (std::string(kinds_[k].name) + ".pvd"), entries);
+    series_[k].write();
   }
-  for (const dem::Series& series : series_) series.write();
 }
 
 std::filesystem::path Frames::file(std::size_t kind) const
@@ -83,19 +86,21 @@ void Frames::save(dem::State& state, const Frames* frames)
 
 std::size_t Frames::count(const dem::State& state)
 {
-  return times_in(state).size();
+  return state.has("output_frames") ? times_in(state).size() : 0;
 }
 
-void Frames::check(const std::filesystem::path& folder, const std::vector<Kind>& kinds,
-                   const dem::State& state)
+std::string Frames::check(const std::filesystem::path& folder,
+                          const std::vector<Kind>& kinds, const dem::State& state)
 {
-  for (const Kind& kind : kinds)
-    for (std::size_t k = 0; k < count(state); ++k) {
-      const auto file = folder / "fields" / frame_name(kind, k);
-      require(std::filesystem::is_regular_file(file),
-              file.string() + ": is missing, so the series cannot be continued. Put it "
-                              "back.");
-    }
+  std::size_t n_missing = 0;
+  for (std::size_t frame = 0; frame < count(state); ++frame)
+    n_missing += !std::all_of(kinds.begin(), kinds.end(), [&](const Kind& kind) {
+      return is_there(folder / "fields" / frame_name(kind, frame));
+    });
+  if (n_missing == 0) return "";
+  return "of " + std::to_string(count(state)) + " frames before the checkpoint " +
+         std::to_string(n_missing) + " are missing in " + (folder / "fields").string() +
+         ": the series (.pvd) list the others\n";
 }
 
 } // namespace mergel::apps

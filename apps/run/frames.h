@@ -6,6 +6,7 @@
 #include "dem/io/vtk.h"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace mergel::apps {
@@ -19,7 +20,7 @@ public:
 
   Frames(const std::filesystem::path& folder, std::vector<Kind> kinds);
   /// Continue the frames that the folder `earlier`, which may be `folder`, held when save()
-  /// wrote `state`.
+  /// wrote `state`. The series list those that are still there.
   Frames(const std::filesystem::path& folder, std::vector<Kind> kinds,
          const std::filesystem::path& earlier, const dem::State& state);
 
@@ -31,16 +32,13 @@ public:
 
   /// @param frames null on all ranks but the first
   static void save(dem::State& state, const Frames* frames);
-  /// Number of frames in the state.
+  /// Number of frames in the state; 0 for a job without frames.
   static std::size_t count(const dem::State& state);
-  /// @throws InputError when a file of the frames in `state` is missing from `folder`
-  static void check(const std::filesystem::path& folder, const std::vector<Kind>& kinds,
-                    const dem::State& state);
+  /// A line on frames in `state` that are missing from `folder`; "" when none is.
+  static std::string check(const std::filesystem::path& folder,
+                           const std::vector<Kind>& kinds, const dem::State& state);
 
 private:
-  Frames(const std::filesystem::path& folder, std::vector<Kind> kinds,
-         std::vector<double> times);
-
   std::filesystem::path fields_;
   std::vector<Kind> kinds_;
   std::vector<double> times_;       ///< [s]

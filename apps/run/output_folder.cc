@@ -1,5 +1,6 @@
 #include "apps/run/output_folder.h"
 
+#include "apps/case/case_file.h"
 #include "apps/case/words.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
@@ -9,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <fstream>
 #include <limits>
 #include <regex>
 #include <string>
@@ -30,6 +32,7 @@ constexpr std::array<std::string_view, 17> own_files{
     "far_field.pvd", "loads.png",        "surface.png",   "element.png", "isotropic.png",
     "curve.png",     "failed.json"};
 constexpr std::string_view own_folder = "fields";
+constexpr std::string_view first_bytes_of_hdf5 = "\x89HDF\r\n\x1a\n";
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& message)
 {
@@ -121,7 +124,31 @@ fs::path final_name(const fs::path& name)
   return dem::temporary_name(text) == name ? fs::path(text) : name;
 }
 
+/// Whether the file begins with these bytes.
+bool begins_with(const fs::path& file, std::string_view bytes)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::string start(bytes.size(), '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return in.good() && start == bytes;
+}
+
 } // namespace
+
+bool holds_run(const fs::path& folder)
+{
+  if (begins_with(folder / "resolved.prm", CaseFile::first_words_of_resolved)) return true;
+  std::error_code error; // a folder that cannot be read holds no run
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path name = entry->path().filename();
+    const bool is_checkpoint = (dem::is_checkpoint_name(name) || is_set_aside(name)) &&
+                               begins_with(entry->path(), first_bytes_of_hdf5);
+    if (is_checkpoint || (final_name(name) != name && is_own_file(final_name(name))))
+      return true;
+  }
+  return false;
+}
 
 OutputFolder::OutputFolder(fs::path folder, Earlier earlier)
     : folder_(std::move(folder)), earlier_(earlier)
@@ -155,7 +182,18 @@ std::vector<fs::path> OutputFolder::left_by_earlier_run() const
   return found;
 }
 
+bool OutputFolder::is_of_run() const
+{
+  const bool has_lock_of_another = !lock_.is_held() && FolderLock::is_known(folder_);
+  return has_lock_of_another || holds_run(folder_);
+}
+
 void OutputFolder::check(const std::vector<fs::path>& inputs) const
+{
+  check(inputs, is_of_run());
+}
+
+void OutputFolder::check(const std::vector<fs::path>& inputs, bool is_of_run) const
 {
   if (folder_.empty())
     throw InputError("output folder: no name is given. Use --output DIR.");
@@ -187,6 +225,10 @@ void OutputFolder::check(const std::vector<fs::path>& inputs) const
   if (earlier_ == Earlier::begun) require_unfinished(folder_);
   const std::vector<fs::path> earlier = left_by_earlier_run();
   if (earlier.empty() || earlier_ == Earlier::go_on) return;
+  if (!is_of_run)
+    refuse(folder_, "holds " + earlier.front().lexically_relative(folder_).string() +
+                        ", and no run of mergel that has written it. Move it away, or "
+                        "choose another folder with --output.");
   if (earlier_ == Earlier::keep)
     refuse(folder_, "holds an earlier run (" +
                         earlier.front().lexically_relative(folder_).string() +
@@ -207,7 +249,8 @@ void OutputFolder::check(const std::vector<fs::path>& inputs) const
 
 void OutputFolder::commit(const std::vector<fs::path>& inputs)
 {
-  check(inputs);
+  const bool was_of_run = is_of_run(); // before the lock of this run is there
+  check(inputs, was_of_run);
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error)
@@ -215,7 +258,7 @@ void OutputFolder::commit(const std::vector<fs::path>& inputs)
                         ". Choose another folder with --output.");
   if (!lock_.is_held()) {
     lock_ = FolderLock(folder_);
-    check(inputs); // another run may have written there since
+    check(inputs, was_of_run || holds_run(folder_)); // another run may have written since
   }
   if (earlier_ == Earlier::go_on) return;
   for (const fs::path& old : left_by_earlier_run()) {

@@ -19,6 +19,11 @@ enum class Earlier {
   go_on      ///< continue that run
 };
 
+/// Whether a folder holds a run of mergel, finished or not: a resolved case that mergel
+/// wrote, a checkpoint, or a file that a killed run could not rename. Files of the user may
+/// have the names of mergel's (history.csv): names alone do not tell.
+bool holds_run(const std::filesystem::path& folder);
+
 /// A folder for the results of one run.
 ///
 /// mergel's own files, which mark an earlier run, are history.csv, resolved.prm,
@@ -27,7 +32,8 @@ enum class Earlier {
 /// load.png, displacement.png, loads.png, surface.png, element.png, isotropic.png and
 /// curve.png, the checkpoints checkpoint_*.h5 and *.h5.aside, .aside-2 and so on; also
 /// their temporary files (dem/io/atomic_file.h). fields/ itself is removed when it is
-/// empty.
+/// empty. They are removed only from a folder that holds a run (holds_run()), or the lock of
+/// one that was killed.
 class OutputFolder {
 public:
   OutputFolder(std::filesystem::path folder, Earlier earlier);
@@ -42,8 +48,8 @@ public:
   /// @param inputs files that the run reads later: they must not be among those that
   ///               commit() removes
   /// @throws InputError when its name is taken by a file, it cannot be created or written,
-  ///   it holds an earlier run that may not be removed (see Earlier), another run is
-  ///   writing there, or an input would be removed
+  ///   it holds an earlier run that may not be removed (see Earlier) or files of these names
+  ///   that no run has left, another run is writing there, or an input would be removed
   void check(const std::vector<std::filesystem::path>& inputs = {}) const;
 
   /// check() again, create the folder, lock it while this object lives, and remove the
@@ -61,6 +67,8 @@ public:
                                                   std::uint64_t step) const;
 
 private:
+  bool is_of_run() const;
+  void check(const std::vector<std::filesystem::path>& inputs, bool is_of_run) const;
   std::vector<std::filesystem::path> left_by_earlier_run() const;
 
   std::filesystem::path folder_;

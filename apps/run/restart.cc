@@ -169,11 +169,18 @@ void check_case(const CaseFile& file, Restart& restart,
   }
 }
 
-bool has_changed(const Restart& restart, const std::string& section, const std::string& key)
+std::string report_on_history(const fs::path& file, const dem::HistoryMark& mark)
 {
-  return std::any_of(
-      restart.changed.begin(), restart.changed.end(),
-      [&](const CaseFile::Change& c) { return c.section == section && c.key == key; });
+  if (dem::check_history(file, mark)) return "";
+  return file.string() + ": is missing, and begins at the checkpoint\n";
+}
+
+const CaseFile::Change* find_change(const Restart& restart, const std::string& section,
+                                    const std::string& key)
+{
+  for (const CaseFile::Change& c : restart.changed)
+    if (c.section == section && c.key == key) return &c;
+  return nullptr;
 }
 
 std::vector<fs::path> inputs_of(const JobOptions& options,
@@ -195,6 +202,13 @@ OutputFolder folder_to_begin_in(const JobOptions& options)
       !options.restart.empty() && fs::equivalent(options.output, options.restart, error);
   if (begins_again) return {options.output, Earlier::begun};
   return {options.output, options.overwrite ? Earlier::overwrite : Earlier::keep};
+}
+
+void begin_folder(OutputFolder& folder, const std::vector<fs::path>& inputs,
+                  const CaseFile& file)
+{
+  folder.commit(inputs);
+  file.write_resolved(folder.path() / "resolved.prm");
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
 #include "apps/run/same_input.h"
+#include "dem/io/history.h"
 #include "dem/io/state/checkpoint.h"
 
 #include <optional>
@@ -54,26 +55,6 @@ void read_case(CaseFile& file, const JobOptions& options,
 void check_case(const CaseFile& file, Restart& restart,
                 const std::vector<std::string>& free);
 
-/// Read the case of a job that writes checkpoints, and find the checkpoint that it
-/// continues from, if there is one. Collective.
-/// @param free the keys that a restart may change, "Section/key"
-/// @throws InputError as the functions above and complete() of the case do, and when the
-///   ranks read different cases
-template <class Case>
-std::optional<Restart> resume(CaseFile& file, Case& c, const JobOptions& options,
-                              const std::string& job, const std::vector<std::string>& free)
-{
-  std::optional<Restart> restart = find_restart(options.restart, job);
-  declare(file, c);
-  on_every_rank([&] {
-    read_case(file, options, restart);
-    complete(file, c);
-    if (restart) check_case(file, *restart, free);
-  });
-  require_same_case(file);
-  return restart;
-}
-
 /// Files that a run reads after its folder was checked: the case file unless --restart is
 /// given, and the checkpoint or, for a new run, those of `others` that are not empty.
 std::vector<std::filesystem::path>
@@ -83,6 +64,12 @@ inputs_of(const JobOptions& options, const std::optional<Restart>& restart,
 /// The results folder of a new run. With --restart it may hold an earlier run that was
 /// ended before its first checkpoint.
 OutputFolder folder_to_begin_in(const JobOptions& options);
+
+/// Make the folder of a new run ready for its files, and write the resolved case. On the
+/// first rank.
+/// @param inputs as of OutputFolder::commit()
+void begin_folder(OutputFolder& folder, const std::vector<std::filesystem::path>& inputs,
+                  const CaseFile& file);
 
 /// The results folder of the run, that of the checkpoint or another, checked by the first
 /// rank. Collective.
@@ -105,9 +92,14 @@ void prepare_continued_folder(OutputFolder& folder,
                               const std::vector<std::filesystem::path>& inputs,
                               const CaseFile& file, const Restart& restart);
 
-/// Whether the case of the continued run has another value for this key.
-bool has_changed(const Restart& restart, const std::string& section,
-                 const std::string& key);
+/// A line on a history that is missing beside its checkpoint; "" where it is there.
+/// @throws InputError when it differs before the mark
+std::string report_on_history(const std::filesystem::path& file,
+                              const dem::HistoryMark& mark);
+
+/// The change of this key since the checkpoint; null without one.
+const CaseFile::Change* find_change(const Restart& restart, const std::string& section,
+                                    const std::string& key);
 
 /// Message to the user: checkpoints that cannot be used, the one that the run continues
 /// from, and changed keys.

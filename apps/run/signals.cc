@@ -1,17 +1,18 @@
 #include "apps/run/signals.h"
 
+#include <array>
 #include <csignal>
+#include <cstddef>
+
+#include <unistd.h>
 
 namespace mergel::apps {
 
 namespace {
 
-volatile std::sig_atomic_t has_term = 0, has_usr1 = 0;
+volatile std::sig_atomic_t stop_signal = 0, has_usr1 = 0;
 
-extern "C" void remember_signal(int number)
-{
-  (number == SIGTERM ? has_term : has_usr1) = 1;
-}
+constexpr std::array<int, 3> stopping{SIGTERM, SIGINT, SIGHUP};
 
 void handle(int number, void (*handler)(int))
 {
@@ -22,25 +23,61 @@ void handle(int number, void (*handler)(int))
   sigaction(number, &action, nullptr);
 }
 
+void (*handler_of(int number))(int)
+{
+  struct sigaction action = {};
+  sigaction(number, nullptr, &action);
+  return action.sa_handler;
+}
+
+extern "C" void remember_checkpoint(int)
+{
+  has_usr1 = 1;
+}
+
+extern "C" void remember_stop(int number)
+{
+  if (number == SIGINT) {
+    if (stop_signal == SIGINT) { // the user does not want to wait
+      std::signal(SIGINT, SIG_DFL);
+      std::raise(SIGINT); // as soon as this handler returns
+      return;
+    }
+    constexpr char text[] =
+        "\nstopping behind a checkpoint; a second Ctrl-C ends the run at once\n";
+    [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, text, sizeof text - 1);
+  }
+  stop_signal = number;
+}
+
+/// Handlers before Signals, in the order of `stopping`.
+std::array<void (*)(int), stopping.size()> before{SIG_DFL, SIG_DFL, SIG_DFL};
+
+/// Of the program at its start.
+bool are_interrupts_ignored = false, are_hangups_ignored = false;
+
 } // namespace
 
 Signals::Signals()
 {
-  has_term = 0;
+  stop_signal = 0;
   has_usr1 = 0;
-  handle(SIGTERM, remember_signal);
-  handle(SIGUSR1, remember_signal);
+  for (std::size_t k = 0; k < stopping.size(); ++k) {
+    before[k] = handler_of(stopping[k]);
+    if (stopping[k] == SIGTERM || before[k] != SIG_IGN) handle(stopping[k], remember_stop);
+  }
+  handle(SIGUSR1, remember_checkpoint);
 }
 
 Signals::~Signals()
 {
-  handle(SIGTERM, SIG_DFL);
-  handle(SIGUSR1, SIG_IGN); // one that comes later has no effect
+  for (std::size_t k = 0; k < stopping.size(); ++k) handle(stopping[k], before[k]);
+  handle(SIGUSR1, SIG_IGN);
 }
 
-bool Signals::wants_stop() const
+int Signals::stop() const
 {
-  return has_term != 0;
+  return stop_signal;
 }
 bool Signals::wants_checkpoint() const
 {
@@ -51,10 +88,32 @@ void Signals::checkpointed()
   has_usr1 = 0;
 }
 
+std::string name_of_signal(int number)
+{
+  switch (number) {
+  case SIGTERM:
+    return "SIGTERM";
+  case SIGINT:
+    return "SIGINT";
+  case SIGHUP:
+    return "SIGHUP";
+  default:
+    return "signal " + std::to_string(number);
+  }
+}
+
 void ignore_signals()
 {
-  handle(SIGUSR1, SIG_IGN);
-  handle(SIGXFSZ, SIG_IGN);
+  are_interrupts_ignored = handler_of(SIGINT) == SIG_IGN;
+  are_hangups_ignored = handler_of(SIGHUP) == SIG_IGN;
+  ignore_signals_again();
+}
+
+void ignore_signals_again()
+{
+  for (const int number : {SIGUSR1, SIGXFSZ, SIGPIPE}) handle(number, SIG_IGN);
+  if (are_interrupts_ignored) handle(SIGINT, SIG_IGN);
+  if (are_hangups_ignored) handle(SIGHUP, SIG_IGN);
 }
 
 } // namespace mergel::apps

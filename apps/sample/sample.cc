@@ -1,11 +1,12 @@
 /// mergel sample: makes a specimen and writes it to a file that later runs read.
 #include "apps/case/case_scan.h"
-#include "apps/coupled/coupled_system.h"
+#include "apps/coupled/system_of_case.h"
 #include "apps/pile/pile_case.h"
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
 #include "apps/run/restart.h"
+#include "apps/run/results.h"
 #include "apps/specimen/specimen.h"
 #include "dem/io/assembly_fields.h"
 #include "dem/io/atomic_file.h"
@@ -31,6 +32,27 @@ void declare(CaseFile& file, SampleCase& c)
   const auto section = file.section("Motion");
   file.flag("free rotation", c.specimen.specimen.free_rotation,
             "Let particles without an intact bond rotate; in the paper they do not.");
+}
+
+void complete(CaseFile& file, SampleCase& c)
+{
+  complete(file, c.specimen, c.contact.chosen());
+}
+
+SpecimenKeys& keys_of(SampleCase& c)
+{
+  return c.specimen;
+}
+SpecimenKeys& keys_of(PileCase& c)
+{
+  return c.assembly;
+}
+
+/// Finish what only the walls of the run determine.
+void fit_to_walls(SampleCase&) {}
+void fit_to_walls(PileCase& c)
+{
+  make_far_field(c.assembly, MPI_COMM_WORLD); // sets the faces around the side
 }
 
 /// Whether the case is one of `mergel pile`, whose specimen is made inside its walls.
@@ -66,9 +88,9 @@ void write_pictures(const std::filesystem::path& folder, const dem::Assembly& as
   std::vector<dem::Vec3> x;
   for (const dem::ParticleState& b : assembly.particles.state) x.push_back(b.x);
   dem::write_particles(folder / "fields/particles_0000.vtp", assembly, x);
-  dem::Series(folder / "particles.pvd").add(0.0, "fields/particles_0000.vtp");
+  dem::Series(folder / "particles.pvd").add(0.0, folder / "fields/particles_0000.vtp");
   dem::write_bonds(folder / "fields/bonds_0000.vtp", assembly);
-  dem::Series(folder / "bonds.pvd").add(0.0, "fields/bonds_0000.vtp");
+  dem::Series(folder / "bonds.pvd").add(0.0, folder / "fields/bonds_0000.vtp");
 }
 
 void refuse_sample(const CaseFile& file, const SpecimenKeys& k)
@@ -78,19 +100,33 @@ void refuse_sample(const CaseFile& file, const SpecimenKeys& k)
                 "mergel sample makes the specimen: leave the key empty");
 }
 
-/// Make the specimen, print its report and write its files.
-void make(const CaseFile& file, const SpecimenKeys& k, OutputFolder& folder,
-          const std::vector<std::filesystem::path>& inputs)
+/// Read the case, make the specimen, print its report and write its files.
+template <class Case>
+void make(const JobOptions& options)
 {
+  CaseFile file;
+  Case c;
+  declare(file, c);
+  SpecimenKeys& k = keys_of(c);
+  on_every_rank([&] {
+    read_case(file, options, std::nullopt);
+    refuse_sample(file, k);
+    complete(file, c);
+  });
+  require_same_case(file);
+  const auto inputs = inputs_of(options, std::nullopt, {k.table});
+  OutputFolder folder = folder_of(options, std::nullopt, inputs, {});
+  fit_to_walls(c);
+
   const dem::Sample sample = obtain_sample(file, k);
   std::cout << report(k, sample) << '\n';
   const auto path = folder.path() / "sample.h5";
   on_first_rank([&] {
-    folder.commit(inputs);
-    file.write_resolved(folder.path() / "resolved.prm");
+    begin_folder(folder, inputs, file);
     dem::write_sample(path, sample);
     write_pictures(folder.path(), as_assembly(k, sample));
     dem::replace_file(folder.path() / "summary.json", summary(k, sample));
+    require_results(folder.path(), "sample");
   });
   std::cout << "specimen: " << path.string()
             << "\nuse it with --set \"Specimen/file=" << path.string() << "\"\n";
@@ -112,39 +148,14 @@ void help_sample(std::ostream& out)
 
 int run_sample(const JobOptions& options)
 {
-  OutputFolder folder(options.output, Earlier::keep);
   bool is_pile = false;
-  on_first_rank([&] { folder = folder_to_begin_in(options); });
   on_every_rank([&] { is_pile = is_pile_case(options); });
   MPI_Bcast(&is_pile, 1, MPI_CXX_BOOL, 0,
-            MPI_COMM_WORLD); // require_same_case() below compares the cases
-  CaseFile file;
-  if (is_pile) {
-    PileCase c;
-    declare(file, c);
-    on_every_rank([&] {
-      read_case(file, options, std::nullopt);
-      complete(file, c);
-      refuse_sample(file, c.assembly);
-    });
-    require_same_case(file);
-    const auto inputs = inputs_of(options, std::nullopt, {c.assembly.table});
-    on_first_rank([&] { folder.check(inputs); });
-    make_far_field(c.assembly); // sets the faces around the side
-    make(file, c.assembly, folder, inputs);
-    return 0;
-  }
-  SampleCase c;
-  declare(file, c);
-  on_every_rank([&] {
-    read_case(file, options, std::nullopt);
-    refuse_sample(file, c.specimen);
-    complete(file, c.specimen, c.contact.chosen());
-  });
-  require_same_case(file);
-  const auto inputs = inputs_of(options, std::nullopt, {c.specimen.table});
-  on_first_rank([&] { folder.check(inputs); });
-  make(file, c.specimen, folder, inputs);
+            MPI_COMM_WORLD); // require_same_case() compares the cases
+  if (is_pile)
+    make<PileCase>(options);
+  else
+    make<SampleCase>(options);
   return 0;
 }
 

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <string>
 
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>
@@ -27,10 +29,11 @@ namespace mergel::apps {
 namespace {
 
 constexpr int oversampling = 2;
-constexpr double text_units = 27.0;   // height of ordinary text
-constexpr double tick_units = 8.0;    // length of a tick
-constexpr double frame_units = 1.8;   // width of frames and ticks
-constexpr double number_units = 15.0; // from the frame to the numbers
+constexpr char software[] = "mergel-view"; // in the head of every picture
+constexpr double text_units = 27.0;        // height of ordinary text
+constexpr double tick_units = 8.0;         // length of a tick
+constexpr double frame_units = 1.8;        // width of frames and ticks
+constexpr double number_units = 15.0;      // from the frame to the numbers
 
 /// Filled convex polygons of one colour.
 class Shapes {
@@ -217,12 +220,22 @@ void Page::save(const std::filesystem::path& png)
     vtkNew<vtkPNGWriter> writer;
     writer->SetInputConnection(average->GetOutputPort());
     writer->SetFileName(temporary.c_str());
+    writer->AddText("Software", software);
     writer->Write();
     if (writer->GetErrorCode() != vtkErrorCode::NoError)
       throw NumericalError(png.string() + ": cannot be written: " +
                            vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()) +
                            ".");
   });
+}
+
+bool is_picture_of_view(const std::filesystem::path& png)
+{
+  std::ifstream in(png, std::ios::binary);
+  std::string head(4096, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head.find(software) != std::string::npos;
 }
 
 double Axis::at(double start, double length, double value) const

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -144,8 +145,16 @@ fs::path picture_folder(const Options& options)
   return options.output;
 }
 
-void save(Page& page, const fs::path& png)
+/// A picture replaces an earlier one, and in the folder of its run what has its name there.
+/// @throws InputError when it would replace another file
+void save(const Options& options, Page& page, const fs::path& png)
 {
+  std::error_code error;
+  require(options.output.empty() || !fs::exists(fs::symlink_status(png, error)) ||
+              is_picture_of_view(png),
+          png.string() +
+              ": exists, and this version of mergel-view has not made it. Move it "
+              "away, or choose another folder with --output.");
   page.save(png);
   std::cout << png.string() << '\n';
 }
@@ -163,12 +172,12 @@ void draw_pile(const Options& options, const dem::Table& history)
     picture.caption = caption(history, frame.time);
     Page page(options.size.width, options.size.height);
     draw_assembly(page, frame, picture);
-    save(page, output / name);
+    save(options, page, output / name);
   };
 
   Page chart(options.size.width, options.size.height);
   draw_load(chart, history);
-  save(chart, output / "load.png");
+  save(options, chart, output / "load.png");
 
   draw_picture(damage_picture(), "damage.png");
 
@@ -222,7 +231,7 @@ void draw_bonds(const Options& options, const std::vector<dem::Table>& histories
 
   Page loads(options.size.width, options.size.height);
   draw_bond_loads(loads, runs);
-  save(loads, output / "loads.png");
+  save(options, loads, output / "loads.png");
 
   std::copy_if(runs.begin(), runs.end(), std::back_inserter(with_surface),
                [](const BondRun& run) { return run.has_surface; });
@@ -236,7 +245,7 @@ void draw_bonds(const Options& options, const std::vector<dem::Table>& histories
       options.has_size ? options.size.height : std::max(options.size.height, 600 * n_rows);
   Page surface(options.size.width, height);
   draw_bond_surface(surface, with_surface);
-  save(surface, output / "surface.png");
+  save(options, surface, output / "surface.png");
 }
 
 /// Draws runs over each other in these panels.
@@ -250,7 +259,7 @@ void draw_panels(const Options& options, const std::vector<RunPlot>& plots,
   const fs::path output = picture_folder(options);
   Page page(options.size.width, options.size.height);
   draw_runs(page, plots, runs, points);
-  save(page, output / name);
+  save(options, page, output / name);
 }
 
 std::vector<Run> runs_of(const Options& options, const Stages& stages,
@@ -346,6 +355,7 @@ void draw(const Options& options)
 
 int main(int argc, char** argv)
 {
+  std::signal(SIGPIPE, SIG_IGN); // all pictures are made, read or not what is printed
   Options options;
   std::string size_text = "1600x1200";
   CLI::App app(

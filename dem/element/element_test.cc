@@ -240,9 +240,8 @@ Outcome ElementTest::outcome() const
       return Outcome::reversed;
   }
   const auto whole = soil_state(stress(), s.assembly.cell.size, s.size_0);
-  const double strain =
-      std::max(whole.strain.cwiseAbs().maxCoeff(), std::abs(whole.volumetric_strain()));
-  return strain > control_.strain_limit ? Outcome::strain_limit_reached : Outcome::goes_on;
+  return whole.largest_strain() > control_.strain_limit ? Outcome::strain_limit_reached
+                                                        : Outcome::goes_on;
 }
 
 ElementRecord ElementTest::record()

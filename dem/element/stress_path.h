@@ -6,6 +6,9 @@
 
 #include "dem/element/servo.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace mergel::dem {
 
 /// Stress and strain of a cell along x, y, z. Strains are engineering strains.
@@ -20,6 +23,11 @@ struct SoilState {
   double axial_strain() const { return strain.z(); }
   double lateral_strain() const { return 0.5 * (strain.x() + strain.y()); }
   double volumetric_strain() const { return 1.0 - (Vec3::Ones() - strain).prod(); }
+  /// Magnitude of the largest strain along an edge or in volume.
+  double largest_strain() const
+  {
+    return std::max(strain.cwiseAbs().maxCoeff(), std::abs(volumetric_strain()));
+  }
 };
 
 /// @param stress along the edges, tension positive [Pa]; @param size edges of the cell [m];

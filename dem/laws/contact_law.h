@@ -27,6 +27,7 @@ concept IsContactLaw =
   law.check();
   { law.E } -> std::same_as<double&>;
   { law.mu } -> std::same_as<double&>;
+  { modulus_at_rigid_wall(law) } -> std::same_as<double>;
   { activation_gap(law) } -> std::same_as<double>;
   { contact_stiffness(law, many, S) } -> std::same_as<ContactStiffness<Lanes>>;
   { contact_stiffness(law, sides, number) } -> std::same_as<ContactStiffness<double>>;
@@ -68,6 +69,10 @@ inline double contact_energy(const ContactLaw& law, const ContactSides<double>& 
 /// radius [-]; it matters to laws whose stiffness grows with the overlap.
 inline constexpr double estimated_overlap = 0.02;
 
+inline double modulus_at_rigid_wall(const ContactLaw& law)
+{
+  return std::visit([](const auto& c) { return modulus_at_rigid_wall(c); }, law);
+}
 inline double friction(const ContactLaw& law)
 {
   return std::visit([](const auto& c) { return c.mu; }, law);

@@ -43,6 +43,12 @@ struct HertzMaterial {
   }
 };
 
+/// That of the grains: a wall is rigid by the law itself.
+inline double modulus_at_rigid_wall(const HertzMaterial& c)
+{
+  return c.E;
+}
+
 inline double activation_gap(const HertzMaterial&)
 {
   return 0.0;

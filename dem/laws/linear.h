@@ -33,6 +33,12 @@ struct LinearMaterial {
   }
 };
 
+/// Modulus of the same grains at a rigid wall: only one side yields [Pa].
+inline double modulus_at_rigid_wall(const LinearMaterial& c)
+{
+  return 2.0 * c.E;
+}
+
 /// Gap below which a contact acts, at S = 1 [m].
 inline double activation_gap(const LinearMaterial& c)
 {

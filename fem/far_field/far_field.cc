@@ -271,6 +271,10 @@ double FarField::mass() const
 {
   return parts_->solid.discrete().m.sum();
 }
+double FarField::damping() const
+{
+  return parts_->motion->damping();
+}
 
 std::string FarField::summary() const
 {

@@ -100,7 +100,8 @@ public:
 
   std::size_t n_cells() const;
   std::size_t n_nodes() const;
-  double mass() const; ///< of the half model's far field [kg]
+  double mass() const;    ///< of the half model's far field [kg]
+  double damping() const; ///< local non-viscous damping [-]
 
   /// One sentence with counts and sizes, for the log.
   std::string summary() const;

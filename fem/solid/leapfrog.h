@@ -59,6 +59,7 @@ public:
   /// Set the solid at rest at u under forces f; all works start again from zero.
   void rest_at(const NodalField& u, std::span<const Vec3> f);
 
+  double damping() const { return alpha_; }
   const NodalMotion& motion() const { return now_; }
   /// Throws std::invalid_argument when the arrays do not fit the solid.
   void restore(NodalMotion state);

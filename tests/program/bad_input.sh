@@ -146,6 +146,7 @@ refuse "a file in the way" 'output folder file: .*file" exists and is not a fold
 refuse "a file above" 'output folder file/results: .*file" exists and is not a folder\. .*' \
   pile good.prm --output file/results
 mkdir earlier earlier/fields
+echo '# The complete case of a run, defaults included. Of an earlier run.' >earlier/resolved.prm
 echo text >earlier/history.csv
 echo text >earlier/fields/particles_0000.vtp
 refuse "an earlier run" \
@@ -250,7 +251,7 @@ edited case.prm '/set symmetry/d'
 refuse "a pile in a whole cylinder" '--set Specimen/shape = cylinder: .*half cylinder.*' \
   pile case.prm --output out --set "Specimen/shape=cylinder"
 refuse_set "a specimen of a pile under pressure" "${place}Specimen/packing = confined: .*use .unjammed." \
-  "Specimen/packing=confined"
+  "Specimen/packing=confined" "Specimen/target pressure=5 kPa"
 
 ## one bond
 cp "$root/apps/cases/bond_fig5a.prm" bond.prm
@@ -292,6 +293,12 @@ refuse "unknown loading" '--set Loading/mode = tensoin: must be one of .*Did you
 refuse "unknown workload" 'mergel bench: --workload = "W3": must be W1, W2 or all.*' bench --workload W3
 refuse "too few particles" 'mergel bench: --particles = 10: must lie in 200 to 2e7.*' bench --particles 10
 refuse "no steps to time" 'mergel bench: --steps.*must be at least one block of at least one step.*' bench --steps -3
+refuse "a block and a table" 'mergel bench: --write-block excludes --output.*' bench --write-block block.txt --output t.csv
+refuse "a block and steps" 'mergel bench: --write-block excludes --steps.*' bench --write-block block.txt --steps 10
+refuse "a block and a checkpoint" 'mergel bench: --(write-block excludes --checkpoint|checkpoint excludes --write-block).*' \
+  bench --write-block block.txt --checkpoint c.h5
+refuse "a checkpoint and repeats" 'mergel bench: --checkpoint excludes --repeat.*' bench --checkpoint c.h5 --repeat 2
+refuse "a block of W2" 'mergel bench: --write-block writes W1, and --workload W2 has no effect\. .*' bench --workload W2 --write-block b.txt
 refuse "yielding without bonds" 'mergel bench: --yielding: only W1 has bonds\. Add --workload W1.*' bench --yielding 0.1
 
 echo "bad input: $((n_checks - n_failed)) of $n_checks refused as they should be"

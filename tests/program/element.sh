@@ -51,7 +51,7 @@ cmp a/resolved.prm b/resolved.prm || fail "the resolved case of a resolved case 
 # Strengths scale with the width by Eq. 18; bonds are brittle, so that the peak follows the strengths.
 run "compression to axial strain = 0.7 %" "" "" "" c || fail "compression: $(cat c.log)"
 run "compression to axial strain = 0.7 %" "" "" "" d --set "Size effect/size effect=true" \
-  --set "Size effect/specimen width=10 mm" || fail "size effect: $(cat d.log)"
+  --set "Size effect/specimen width=10 mm" --set "Size effect/reference width=50 mm" --set "Size effect/psi=1.1" || fail "size effect: $(cat d.log)"
 grep -q 'times 1.47' d.log || fail "psi (50/10)^0.18 = 1.47 is printed: $(head -2 d.log)"
 within c "UCS" 3e6 6e6
 awk -v c="$(value c UCS)" -v d="$(value d UCS)" 'BEGIN { exit !(d > 1.2 * c && d < 1.6 * c) }' ||

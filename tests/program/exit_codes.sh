@@ -33,12 +33,20 @@ long=$(printf 'x%.0s' {1..300}) # no file system takes such a name
 tiny+=(--set "Output/frames=1")
 pile=$root/apps/cases/pile_small.prm bond=$root/apps/cases/bond_fig5a.prm
 bench=(bench --workload W1 --particles 200 --steps 4 --repeat 2)
+no_run=(bench --workload W1 --particles 200)
 
 ends "bench, done" 0 '' "${bench[@]}" --output t.csv
 ends "bench, a folder that does not exist" 1 'none/t\.csv: the folder none does not exist' "${bench[@]}" --output none/t.csv
-ends "bench, a block into such a folder" 1 'none/b: the folder none does not exist' "${bench[@]}" --write-block none/b
+ends "bench, a block into such a folder" 1 'none/b: the folder none does not exist' "${no_run[@]}" --write-block none/b
 ends "bench, a name too long" 1 'File name too long' "${bench[@]}" --output "$long"
-kib=1 ends "bench, the disk is full" 2 'block\.txt: cannot be written: File too large' "${bench[@]}" --write-block block.txt
+echo mine >mine.txt
+ends "bench, a block in place of another file" 1 'mine\.txt: exists, and is not what this option writes' "${no_run[@]}" --write-block mine.txt
+ends "bench, a checkpoint in place of another file" 1 'mine\.txt: exists, and is not what this option writes' "${no_run[@]}" --checkpoint mine.txt
+ends "bench, a table in place of another file" 1 'mine\.txt: exists and is not a table' "${bench[@]}" --output mine.txt
+[ "$(cat mine.txt)" = mine ] || { echo "FAILED  bench replaced a file of the user"; n_failed=$((n_failed + 1)); }
+for file in block.bin block.bin; do ends "bench, a block twice" 0 '' "${no_run[@]}" --write-block "$file"; done
+for file in bench.h5 bench.h5; do ends "bench, a checkpoint twice" 0 '' "${no_run[@]}" --checkpoint "$file"; done
+kib=1 ends "bench, the disk is full" 2 'block\.txt: cannot be written: File too large' "${no_run[@]}" --write-block block.txt
 
 ends "bond, done" 0 '' bond "$bond" --output bond
 ends "bond, a results folder with a name too long" 1 'cannot be created: File name too long' bond "$bond" --output "$long"

@@ -93,4 +93,12 @@ refused 'cannot be read' sheared --points nowhere.csv
 printf '1,2\n3,4\n' >bare.csv
 refused 'with their names above' sheared --points bare.csv
 
+# A picture replaces an earlier one, and no file of the user.
+makes element.png sheared
+"$view" --output out sheared >log 2>&1 || fail "a picture made again: $(cat log)"
+echo mine >out/element.png
+code=0; "$view" --output out sheared >log 2>&1 || code=$?
+[ $code -eq 1 ] && grep -q 'out/element.png: exists, and this version of mergel-view has not made it' log &&
+  [ "$(cat out/element.png)" = mine ] || fail "a picture of the user: $code $(cat log)"
+
 echo "view_element: all checks hold"

@@ -269,7 +269,7 @@ fig11() {
       set -- $w
       for s in "${seeds[@]}"; do
         [ -s "size_$1_$2_$s/sample.h5" ] || continue
-        run "fig11/${f}_$1_$2_$s" scale "size_$1_$2_$s" "compression to axial strain = 3 %" "$(flow "$f"); Size effect/size effect=true"
+        run "fig11/${f}_$1_$2_$s" scale "size_$1_$2_$s" "compression to axial strain = 3 %" "$(flow "$f"); Size effect/size effect=true; Size effect/reference width=50 mm; Size effect/psi=1.1"
       done
     done
   done

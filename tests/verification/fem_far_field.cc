@@ -1,5 +1,5 @@
 // The far field as the coupling uses it: fem/README.md, 5. Initial stress, 8. Static
-// solution; coupling/README.md, 8. Start of a coupled run.
+// solution; coupling/README.md, Start of a coupled run.
 #include "fem/boundary_ids.h"
 #include "fem/far_field/far_field.h"
 #include "fem/far_field/far_field_mesh.h"

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int version = 1;
+constexpr int version = 2; // 1: numbers in a fixed order, without names
 const std::string kind = "checkpoint";
 
 } // namespace

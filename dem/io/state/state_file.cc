@@ -270,7 +270,8 @@ State read_state(const fs::path& path, const std::string& kind, int version,
           "has " + kind + " format " + std::to_string(found) +
           (found > version ? ", newer than the " : ", older than the ") +
           std::to_string(version) +
-          " that this program reads; continue it with the program that wrote it");
+          " that this program reads; continue the run with the mergel that wrote it, or "
+          "begin it again");
     std::vector<std::string> names;
     if (H5Literate(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name, &names) < 0)
       throw NumericalError("HDF5 cannot list its arrays");

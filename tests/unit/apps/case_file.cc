@@ -144,3 +144,84 @@ TEST_CASE("two keys of one name need conditions that exclude each other", "[unit
   CHECK_THROWS_AS(file.number("x", x, positive, "Two."), std::logic_error);
   CHECK_THROWS_AS(file.only_if("law", {"hard"}), std::logic_error);
 }
+
+namespace {
+
+/// A key that follows from another, and keys of a flag.
+struct Derived {
+  double nu = std::nan(""), K0 = 0.0, width = std::nan("");
+  bool is_on = false;
+  CaseFile file;
+
+  Derived()
+  {
+    const auto section = file.section("A");
+    file.number("nu", nu, from_to(0.0, 0.5), "nu.");
+    file.derived("K0", K0, "1", between(0.0, 0.9), "nu/(1 - nu)", "K0.");
+    file.flag("effect", is_on, "An effect.");
+    const auto only = file.only_if("effect", {"true"});
+    file.quantity("width", width, "m", positive, "Its width.", "mm");
+  }
+  void read(const std::string& keys)
+  {
+    write("a.prm", "subsection A\n" + keys + "end\n");
+    file.read("a.prm");
+    file.derive("A", "K0", nu / (1.0 - nu));
+  }
+};
+
+} // namespace
+
+TEST_CASE("A default that follows from other keys is in the resolved case as a number",
+          "[unit][apps]")
+{
+  const WorkingFolder folder;
+  Derived d;
+  d.read(" set nu = 0.3\n");
+  CHECK(d.K0 == 0.3 / 0.7);
+  CHECK_FALSE(d.file.is_given("A", "K0"));
+  const std::string resolved = d.file.resolved_text();
+  Derived again;
+  again.file.read_text(resolved, "resolved");
+  CHECK(again.K0 == 0.3 / 0.7); // the same bits, without derive()
+  again.file.derive("A", "K0", 0.1);
+  CHECK(again.K0 == 0.3 / 0.7);
+  CHECK(again.file.resolved_text() == resolved);
+
+  d.read(" set nu = 0.3\n set K0 = 0.5\n");
+  CHECK(d.K0 == 0.5);
+  CHECK_THROWS_WITH(d.read(" set nu = 0.49\n"),
+                    Contains("a.prm: A/K0 = nu/(1 - nu): must satisfy 0 <= value <= 0.9"));
+  CHECK_THROWS_AS(d.file.derive("A", "nu", 0.1), std::logic_error);
+  std::ostringstream help;
+  d.file.help(help);
+  CHECK_THAT(help.str(), Contains("K0") && Contains("nu/(1 - nu)"));
+}
+
+TEST_CASE(
+    "A key that has no effect is refused, and left out of the resolved case; a resolved "
+    "case of an earlier version may hold it",
+    "[unit][apps]")
+{
+  const WorkingFolder folder;
+  Derived d;
+  CHECK_THROWS_WITH(
+      d.read(" set nu = 0.3\n set width = 1 mm\n"),
+      Contains("a.prm:3: A/width = 1 mm: is a key of `effect` = true; here it "
+               "is false. Leave the key out, or change `effect`."));
+  d.read(" set nu = 0.3\n set effect = yes\n set width = 1 mm\n");
+  CHECK(d.width == 1e-3);
+  const std::string with_width = d.file.resolved_text();
+  CHECK_THAT(with_width, Contains("set width = 1 mm"));
+  d.read(" set nu = 0.3\n");
+  CHECK_THAT(d.file.resolved_text(), !Contains("width"));
+
+  std::string earlier = with_width;
+  earlier.replace(earlier.find("effect = true"), 13, "effect = false");
+  Derived again;
+  again.file.read_text(earlier, "earlier");
+  CHECK_FALSE(again.is_on);
+  CHECK(again.file.changes_since(earlier).empty());
+  CHECK_THROWS_WITH(again.file.read_text(earlier, "earlier", {"A/width=2 mm"}),
+                    Contains("--set A/width = 2 mm: is a key of `effect` = true"));
+}

@@ -15,6 +15,10 @@
 #include <fstream>
 #include <new>
 #include <sstream>
+#include <utility>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 using namespace mergel;
 using namespace mergel::apps;
@@ -101,6 +105,73 @@ TEST_CASE("SIGTERM and the end of the walltime stop a run after a checkpoint",
       {.folder = folder.path, .job = "pile", .case_text = "", .every = {}, .end = 0.0});
   CHECK_THROWS_WITH(steps_written(late, folder.path, 30),
                     Contains("stopped before the end of --walltime at step 10"));
+}
+
+TEST_CASE("Ctrl-C and a closed terminal stop a run as SIGTERM does", "[unit][apps]")
+{
+  for (const auto& [signal, name] : {std::pair{SIGINT, "SIGINT"}, {SIGHUP, "SIGHUP"}}) {
+    const TemporaryFolder folder;
+    std::signal(signal, SIG_DFL); // ignored where the tests run in the background
+    CheckpointScheduler scheduler(
+        {.folder = folder.path, .job = "pile", .case_text = "", .every = {}});
+    std::raise(signal);
+    CHECK_THROWS_WITH(steps_written(scheduler, folder.path, 30),
+                      Contains("stopped by " + std::string(name) + " at step 10") &&
+                          Contains("mergel pile --restart " + folder.path.string()));
+    CHECK(fs::exists(folder.path / dem::checkpoint_name(10)));
+  }
+}
+
+namespace {
+
+/// How a process ends that does this: the number of the signal that ended it, or its exit
+/// code with a minus.
+int ending_signal(void (*task)())
+{
+  const pid_t child = ::fork();
+  if (child == 0) {
+    task();
+    ::_exit(0);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  return WIFSIGNALED(status) ? WTERMSIG(status) : -WEXITSTATUS(status);
+}
+
+} // namespace
+
+TEST_CASE("A second Ctrl-C ends a run at once, and what was ignored stays ignored",
+          "[unit][apps]")
+{
+  CHECK(ending_signal([] {
+          std::signal(SIGINT, SIG_DFL);
+          const Signals signals;
+          std::raise(SIGINT);
+          if (signals.stop() != SIGINT) ::_exit(1);
+        }) == 0);
+  CHECK(ending_signal([] {
+          std::signal(SIGINT, SIG_DFL);
+          const Signals signals;
+          std::raise(SIGINT);
+          std::raise(SIGINT);
+        }) == SIGINT);
+  CHECK(ending_signal([] {
+          for (const int number : {SIGINT, SIGHUP}) std::signal(number, SIG_IGN);
+          ignore_signals();
+          for (const int number : {SIGINT, SIGHUP, SIGPIPE})
+            std::signal(number, SIG_DFL); // as PETSc does
+          ignore_signals_again();
+          const Signals signals;
+          for (const int number : {SIGINT, SIGHUP, SIGPIPE}) std::raise(number);
+          if (signals.stop() != 0) ::_exit(1);
+        }) == 0);
+  CHECK(ending_signal([] {
+          std::signal(SIGHUP, SIG_DFL);
+          {
+            const Signals signals;
+          }
+          std::raise(SIGHUP); // a job without checkpoints, or behind its last one
+        }) == SIGHUP);
 }
 
 TEST_CASE("The first checkpoint before the end of the walltime assumes a slow disk",
@@ -219,7 +290,24 @@ TEST_CASE("A history continues at its mark and nowhere else", "[unit][apps]")
   std::ofstream(file) << "a [m],b [s]\n1,3\n";
   CHECK_THROWS_WITH(dem::check_history(file, mark), Contains("does not begin as it did"));
   fs::remove(file);
-  CHECK_THROWS_WITH(dem::check_history(file, mark), Contains("history.csv: is missing"));
+  CHECK_FALSE(dem::check_history(file, mark));
+  std::string begins_there;
+  dem::HistoryMark later;
+  for (int k = 0; k < 2; ++k) { // also where it was continued so before
+    dem::History history(file, columns, file, mark);
+    history.add({3.0, 4.0});
+    later = history.mark();
+    begins_there = content(file);
+    CHECK_THAT(begins_there, StartsWith("# begins behind 16 bytes of checksum ") &&
+                                 Catch::EndsWith("missing\na [m],b [s]\n3,4\n"));
+    CHECK(later.bytes == begins_there.size());
+    history.add({5.0, 6.0});
+    CHECK(dem::check_history(file, mark));
+    CHECK(dem::check_history(file, later));
+  }
+  dem::History history(file, columns, file, later);
+  CHECK(content(file) == begins_there);
+  CHECK_THROWS_AS(dem::check_history(file, {7, 7}), InputError);
 }
 
 TEST_CASE("The keys in which two resolved cases differ are found", "[unit][apps]")

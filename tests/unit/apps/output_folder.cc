@@ -1,5 +1,6 @@
 #include "apps/run/output_folder.h"
 
+#include "apps/case/case_file.h"
 #include "apps/run/restart.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
@@ -28,6 +29,13 @@ void create_file(const fs::path& file)
 {
   fs::create_directories(file.parent_path());
   std::ofstream(file) << "x";
+}
+
+/// What marks the folder of a run.
+void create_case(const fs::path& folder)
+{
+  fs::create_directories(folder);
+  std::ofstream(folder / "resolved.prm") << CaseFile::first_words_of_resolved << " More.\n";
 }
 
 /// Everything below a folder, sorted.
@@ -99,9 +107,11 @@ TEST_CASE("Each file of an earlier run is recognised and kept", "[unit][apps]")
   for (const std::string& name : own) {
     const TemporaryFolder folder;
     create_file(folder.path / name);
+    create_case(folder.path);
     const auto before = tree(folder.path);
     CHECK(refusal(folder.path, Earlier::keep) ==
-          "output folder " + folder.path.string() + ": holds an earlier run (" + name +
+          "output folder " + folder.path.string() + ": holds an earlier run (" +
+              std::min(name, std::string("resolved.prm")) +
               "). Choose another folder with --output, or replace that run with "
               "--overwrite.");
     CHECK(tree(folder.path) == before);
@@ -118,6 +128,7 @@ TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps
       ".notes.partial.txt", "my_view.pvd",    "fields/notes.txt"};
   for (const auto& names : {own, others})
     for (const std::string& name : names) create_file(results / name);
+  create_case(results);
   create_file(folder.path / "precious" / "data");
   fs::create_symlink(folder.path / "precious", results / "link");
   const auto before = tree(folder.path);
@@ -134,6 +145,57 @@ TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps
   CHECK(fs::exists(folder.path / "precious" / "data"));
 }
 
+TEST_CASE("Files of a user that have the names of mergel's are neither removed nor offered "
+          "to --overwrite",
+          "[unit][apps]")
+{
+  const std::vector<std::string> names{"history.csv",
+                                       "resolved.prm",
+                                       "summary.json",
+                                       "sample.h5",
+                                       "load.png",
+                                       "checkpoint_000000000300.h5",
+                                       "fields/bonds_0000.vtp"};
+  for (const std::string& name : names)
+    for (const Earlier earlier : {Earlier::keep, Earlier::overwrite}) {
+      const TemporaryFolder folder;
+      create_file(folder.path / name);
+      const auto before = tree(folder.path);
+      CHECK(refusal(folder.path, earlier) ==
+            "output folder " + folder.path.string() + ": holds " + name +
+                ", and no run of mergel that has written it. Move it away, or choose "
+                "another folder with --output.");
+      CHECK(tree(folder.path) == before);
+    }
+  // also where --restart has locked the folder already
+  const TemporaryFolder folder;
+  create_file(folder.path / "history.csv");
+  OutputFolder output(folder.path, Earlier::begun);
+  output.hold(FolderLock(folder.path, 0.0));
+  CHECK_THROWS_WITH(output.commit(), Contains("no run of mergel that has written it"));
+}
+
+TEST_CASE("A run is known by its case, its checkpoints, what it could not rename, and the "
+          "lock that it left when it was killed",
+          "[unit][apps]")
+{
+  const std::string hdf5 = "\x89HDF\r\n\x1a\n and more";
+  const std::vector<std::pair<std::string, std::string>> marks{
+      {"resolved.prm", std::string(CaseFile::first_words_of_resolved) + " And more."},
+      {"checkpoint_000000000300.h5", hdf5},
+      {"checkpoint_000000000300.h5.aside-2", hdf5},
+      {".history.partial.csv", "x"},
+      {".mergel.lock", "process 7"}};
+  for (const auto& [mark, text] : marks) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path / mark, std::ios::binary) << text;
+    create_file(folder.path / "history.csv");
+    CHECK_THAT(refusal(folder.path, Earlier::keep), Contains("holds an earlier run ("));
+    OutputFolder(folder.path, Earlier::overwrite).commit();
+    CHECK(tree(folder.path).empty());
+  }
+}
+
 TEST_CASE("--overwrite removes links, never what they point to", "[unit][apps]")
 {
   const TemporaryFolder folder;
@@ -142,6 +204,7 @@ TEST_CASE("--overwrite removes links, never what they point to", "[unit][apps]")
   fs::create_directory(results);
   fs::create_symlink(folder.path / "precious", results / "fields");
   fs::create_symlink(folder.path / "precious" / "sample.h5", results / "sample.h5");
+  create_case(results);
   OutputFolder(results, Earlier::overwrite).commit();
   CHECK(tree(results).empty());
   CHECK(fs::exists(folder.path / "precious" / "sample.h5"));
@@ -155,6 +218,7 @@ TEST_CASE("--overwrite does not remove what the run is to read", "[unit][apps]")
   create_file(sample);
   create_file(field);
   create_file(folder.path / "notes.txt");
+  create_case(folder.path);
   const auto before = tree(folder.path);
   for (const fs::path& input : {sample, field, folder.path / "." / "sample.h5"})
     CHECK(refusal(folder.path, Earlier::overwrite, {input}) ==
@@ -240,6 +304,7 @@ TEST_CASE("A checkpoint set aside does not replace those set aside before", "[un
 
   // each of them counts as a file of an earlier run
   fs::remove(beside(".aside"));
+  std::ofstream(beside(".aside-2"), std::ios::binary) << "\x89HDF\r\n\x1a\n cut";
   create_file(beside(".aside-two"));
   CHECK_THAT(refusal(folder.path, Earlier::keep),
              Contains("holds an earlier run (checkpoint_000000000300.h5.aside-2)"));
@@ -259,6 +324,7 @@ TEST_CASE("A run that another process finished meanwhile is not started again",
 {
   const TemporaryFolder folder;
   create_file(folder.path / "history.csv");
+  create_case(folder.path);
   JobOptions options;
   options.output = options.restart = folder.path;
   OutputFolder output = folder_to_begin_in(options);
@@ -273,6 +339,7 @@ TEST_CASE("A failed run without a checkpoint is not started again over its resul
 {
   const TemporaryFolder folder;
   create_file(folder.path / "history.csv");
+  create_case(folder.path);
   create_file(folder.path / "failed.json");
   JobOptions options;
   options.output = options.restart = folder.path;

@@ -1,6 +1,6 @@
 #include "apps/pile/pile_case.h"
-#include "apps/coupled/coupled_system.h"
 #include "tests/support/repository.h"
+#include "tests/support/shipped_case.h"
 
 #include <catch2/catch.hpp>
 
@@ -118,4 +118,55 @@ TEST_CASE(
   CHECK(c.tip == PileCase::Tip::flat);
   CHECK(c.tip_height() == 0.0);
   CHECK(c.travel() == c.final_depth);
+}
+
+namespace {
+
+PileCase read_text_of(const std::string& text)
+{
+  CaseFile file;
+  PileCase c;
+  declare(file, c);
+  file.read_text(text, "case");
+  complete(file, c);
+  return c;
+}
+
+} // namespace
+
+TEST_CASE("moduli, friction and lengths that a pile case leaves out follow from its rock",
+          "[unit][apps]")
+{
+  const std::string text = mergel::test::without(
+      "pile_small.prm", {"contact modulus", "interface modulus", "interface friction",
+                         "collar height", "K0", "record every"});
+  const PileCase c = read_text_of(text);
+  CHECK(dem::modulus(c.contact) == 1.26e9); // 2 x 0.63 GPa, that of the paper
+  CHECK(dem::modulus(c.assembly.interface) == 0.63e9);
+  CHECK(dem::friction(c.assembly.interface) == 0.3);
+  CHECK(c.assembly.collar_height == 2e-3);
+  CHECK(c.assembly.far_field.K0 == 0.14 / (1.0 - 0.14));
+  CHECK(c.record_every == Approx(0.014e-3).epsilon(1e-15));
+
+  // of another rock
+  std::string other = text;
+  for (const auto& [old, fresh] :
+       {std::pair{"set effective modulus = 0.63 GPa", "set effective modulus = 2 GPa"},
+        {"set friction          = 0.3", "set friction = 0.5"},
+        {"= 0.14\n", "= 0.25\n"}})
+    other.replace(other.find(old), std::string(old).size(), fresh);
+  const PileCase stiff = read_text_of(other);
+  CHECK(dem::modulus(stiff.contact) == 4e9);
+  CHECK(dem::modulus(stiff.assembly.interface) == 2e9);
+  CHECK(dem::friction(stiff.assembly.interface) == 0.5);
+  CHECK(stiff.assembly.far_field.K0 == 1.0 / 3.0);
+}
+
+TEST_CASE("held walls need no modulus and carry no stress", "[unit][apps]")
+{
+  const std::string text =
+      mergel::test::without("pile_small.prm", {"Young's modulus", "Poisson ratio", "K0"});
+  const PileCase c = read_text_of(text + "subsection Far field\n set model = rigid\nend\n");
+  CHECK(c.assembly.far_field.gravity == 0.0);
+  CHECK(c.assembly.gravity == Approx(9.81).epsilon(1e-3)); // of the particles
 }

@@ -1,0 +1,138 @@
+#include "apps/run/results.h"
+
+#include "apps/case/case_scan.h"
+#include "apps/case/words.h"
+#include "dem/error.h"
+#include "dem/io/state/checkpoint.h"
+#include "dem/io/vtk.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace mergel::apps {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_there(const fs::path& file)
+{
+  std::error_code error;
+  return fs::is_regular_file(file, error);
+}
+
+/// The keys of resolved.prm; none where it cannot be read.
+CaseScan case_of(const fs::path& folder)
+{
+  try {
+    return scan_case(read_case_text(folder / "resolved.prm"), "resolved.prm");
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+std::string first_line(const fs::path& file)
+{
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+/// Whether the text of a file contains `text`.
+bool contains(const fs::path& file, const std::string& text)
+{
+  std::ifstream in(file, std::ios::binary);
+  const std::string all((std::istreambuf_iterator<char>(in)), {});
+  return all.find(text) != std::string::npos;
+}
+
+/// Whether the folder is that of mergel sample, whose case may be that of a pile.
+bool holds_only_a_specimen(const fs::path& folder)
+{
+  if (is_there(folder / "summary.json"))
+    return contains(folder / "summary.json", "\"porosity wanted [-]\"");
+  return is_there(folder / "sample.h5") && !is_there(folder / "history.csv") &&
+         !is_there(folder / "far_field.pvd") && dem::checkpoints_in(folder).empty();
+}
+
+/// The series that a finished run of this job leaves.
+std::vector<std::string> series_of(const fs::path& folder, const std::string& job)
+{
+  if (job == "pile") return {"particles", "bonds", "pile", "far_field"};
+  if (job == "sample") return {"particles", "bonds"};
+  if (job != "element") return {};
+  const CaseScan scan = case_of(folder);
+  const bool has_pictures =
+      std::any_of(scan.entries.begin(), scan.entries.end(), [](const CaseEntry& e) {
+        return e.section == "Output" && e.key == "pictures" && e.value != "none";
+      });
+  return has_pictures ? std::vector<std::string>{"particles", "bonds"}
+                      : std::vector<std::string>{};
+}
+
+/// The files of a series that are not there, or the series where it cannot be read.
+std::vector<std::string> missing_in(const fs::path& folder, const std::string& pvd)
+{
+  std::vector<std::string> missing;
+  try {
+    for (const dem::SeriesEntry& entry : dem::read_series(folder / pvd))
+      if (!is_there(folder / entry.file)) missing.push_back(entry.file.string());
+  } catch (const InputError&) {
+    missing.push_back(pvd);
+  }
+  return missing;
+}
+
+} // namespace
+
+std::string job_of(const fs::path& folder)
+{
+  const CaseScan scan = case_of(folder);
+  const auto has = [&](const char* section) { return scan.sections.contains(section); };
+  if (has("Particles")) return "bond";
+  if (has("Loading")) return "element";
+  if (has("Specimen"))
+    return has("Pile") && !holds_only_a_specimen(folder) ? "pile" : "sample";
+  const std::string heading = first_line(folder / "history.csv");
+  if (heading.find("depth/D_p [-]") != std::string::npos) return "pile";
+  if (heading.find("axial strain [-]") != std::string::npos) return "element";
+  if (heading.find("plastic theta [rad]") != std::string::npos) return "bond";
+  return "";
+}
+
+std::vector<std::string> missing_results(const fs::path& folder, const std::string& job,
+                                         Extent extent)
+{
+  std::vector<std::string> missing;
+  const auto owe = [&](const std::string& name) {
+    if (!is_there(folder / name)) missing.push_back(name);
+  };
+  owe("resolved.prm");
+  owe(job == "sample" ? "sample.h5" : "history.csv");
+  const std::vector<std::string> owed = series_of(folder, job);
+  for (const char* name : {"particles", "bonds", "pile", "far_field"}) {
+    const std::string pvd = std::string(name) + ".pvd";
+    if (is_there(folder / pvd)) {
+      const auto gone = missing_in(folder, pvd);
+      missing.insert(missing.end(), gone.begin(), gone.end());
+    } else if (extent == Extent::finished &&
+               std::find(owed.begin(), owed.end(), name) != owed.end()) {
+      missing.push_back(pvd);
+    }
+  }
+  return missing;
+}
+
+void require_results(const fs::path& folder, const std::string& job)
+{
+  const std::vector<std::string> missing = missing_results(folder, job, Extent::finished);
+  if (missing.empty()) return;
+  throw NumericalError(folder.string() +
+                       ": was changed while the run wrote there, and lacks " +
+                       joined(missing, ", "));
+}
+
+} // namespace mergel::apps

@@ -1,0 +1,61 @@
+/// Saving and loading a coupled system as named arrays.
+#include "coupling/coupled_system.h"
+#include "dem/assembly/distribute.h"
+#include "dem/io/state/assembly_state.h"
+#include "dem/io/state/named_numbers.h"
+#include "dem/io/state/state_rows.h"
+
+namespace mergel::coupling {
+
+namespace {
+
+template <class System>
+dem::NumbersOf<System> numbers_of(System& s)
+{
+  return {{"time step [s]", &s.dt},
+          {"previous time step [s]", &s.dt_before},
+          {"time [s]", &s.time}};
+}
+
+template <class System>
+dem::CountsOf<System> counts_of(System& s)
+{
+  return {{"steps [-]", &s.n_steps},
+          {"phase of settling", &s.settling.phase, Settling::Phase::done},
+          {"steps in this phase [-]", &s.settling.n}};
+}
+
+} // namespace
+
+void CoupledSystem::save(dem::State& state) const
+{
+  dem::save(state, assembly);
+  for (const Member& s : structures) s.structure->save(state, s.name);
+  dem::save_numbers(state, "coupled_numbers", numbers_of(*this));
+  dem::save_counts(state, "coupled_counts", counts_of(*this));
+  std::vector<double> x;
+  for (const dem::Vec3& a : x_0) dem::append(x, a);
+  state.add_common("x_0", std::move(x), 3);
+}
+
+CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec> specs,
+                             dem::State& state, std::vector<dem::RigidWall> rigid_walls,
+                             MPI_Comm comm)
+    : CoupledSystem(spec, specs)
+{
+  assembly.rigid_walls = std::move(rigid_walls);
+  dem::load(state, assembly);
+  dem::draw_strengths(spec.strengths, assembly.particles);
+  for (Member& s : structures) s.structure->load(state, s.name);
+  dem::load_numbers(state, "coupled_numbers", numbers_of(*this));
+  dem::load_counts(state, "coupled_counts", counts_of(*this));
+  const auto& x = state.get<double>("x_0", 3);
+  if (!x.empty() && x.size() != 3 * assembly.particles.size())
+    dem::State::refuse("x_0", "does not have one row per particle");
+  for (std::size_t k = 0; k < x.size(); k += 3) x_0.push_back(dem::vec_at(x, k));
+
+  dem::distribute(assembly, comm);
+  dem::rebuild_lists(assembly);
+}
+
+} // namespace mergel::coupling

@@ -1,0 +1,110 @@
+#include "coupling/coupled_system.h"
+
+#include "coupling/interface_stiffness.h"
+#include "dem/assembly/distribute.h"
+
+#include <algorithm>
+
+namespace mergel::coupling {
+
+CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>& specs)
+    : safety(spec.safety)
+{
+  assembly.material = spec.material;
+  assembly.motion = spec.motion;
+  assembly.list = dem::VerletList(dem::activation_gap(spec.material.contact), spec.skin);
+  if (spec.symmetry != SymmetryPlane::none) assembly.mirrors.emplace_back();
+  for (StructureSpec& s : specs) {
+    Interface interface = s.structure->interface(s.contact);
+    Structure& structure = *s.structure;
+    structures.push_back({s.name, std::move(s.structure), assembly.walls.size(),
+                          Exchange(std::move(interface.transfer), structure)});
+    assembly.walls.push_back(std::move(interface.wall));
+    assembly.walls.back().bonds_yield = s.bonds_yield;
+  }
+}
+
+CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec> specs,
+                             const dem::Particles& particles, const dem::Bonding& bonding,
+                             MPI_Comm comm)
+    : CoupledSystem(spec, specs)
+{
+  assembly.particles = particles;
+  assembly.bonds = dem::make_bonds(assembly.particles, assembly.cell, bonding.pairs);
+  if (spec.symmetry == SymmetryPlane::bonded)
+    dem::bond_to_mirror(assembly.mirrors.front(), assembly.particles, bonding.limit);
+  for (std::size_t k = 0; k < specs.size(); ++k)
+    if (specs[k].is_bonded)
+      dem::bond_to_wall(assembly.walls[k], assembly.particles, bonding.limit);
+  dem::distribute(assembly, comm);
+  dem::add_forces(assembly, 0.0); // at dt = 0 histories do not change
+  dt = dt_before = dem::stable_time_step(assembly, safety);
+  lower_time_step(true);
+}
+
+void CoupledSystem::lower_time_step(bool structures_too)
+{
+  dt = std::min(dt, dem::stable_time_step(assembly, safety));
+  if (!structures_too) return;
+  for (const Member& s : structures)
+    if (moves(s))
+      dt =
+          std::min(dt, s.structure->stable_time_step(
+                           interface_stiffness(assembly, wall_of(s), s.exchange.transfer()),
+                           safety));
+}
+
+std::string CoupledSystem::where() const
+{
+  return " (step " + std::to_string(n_steps) + ", t = " + std::to_string(1e3 * time) +
+         " ms)";
+}
+
+void CoupledSystem::balance_load()
+{
+  const double spent = assembly.times.total() - assembly.times.exchange;
+  const double since = spent - spent_before_;
+  spent_before_ = spent;
+  const double most = assembly.comm.global_max(since),
+               smallest = assembly.comm.global_min(since);
+  if (most > imbalance_allowed * smallest) dem::rebalance(assembly, since);
+}
+
+double CoupledSystem::unbalanced() const
+{
+  double ratio = dem::unbalanced_ratio(assembly);
+  for (const Member& s : structures)
+    if (moves(s)) ratio = std::max(ratio, s.structure->unbalanced_ratio());
+  return ratio;
+}
+
+InterfaceBalance CoupledSystem::balance()
+{
+  InterfaceBalance all;
+  for (Member& s : structures)
+    all = worst(all, interface_balance(s.exchange, wall_of(s), assembly.comm));
+  return all;
+}
+
+EnergyBalances CoupledSystem::energy_balances() const
+{
+  EnergyBalances e{dem::energy_balance(assembly, dt), {}};
+  for (const Member& s : structures) e.structures += s.structure->energies();
+  return e;
+}
+
+double CoupledSystem::structure_seconds() const
+{
+  double sum = 0.0;
+  for (const Member& s : structures) sum += s.exchange.structure_seconds;
+  return sum;
+}
+
+double CoupledSystem::exchange_seconds() const
+{
+  double sum = 0.0;
+  for (const Member& s : structures) sum += s.exchange.exchange_seconds;
+  return sum;
+}
+
+} // namespace mergel::coupling

@@ -1,0 +1,155 @@
+/// An assembly and the structures that move its walls (coupling/README.md, Coupled step).
+#pragma once
+
+#include "coupling/energy_balances.h"
+#include "coupling/exchange.h"
+#include "coupling/interface_balance.h"
+#include "dem/pairs/strength.h"
+#include "dem/specimen/bonding.h"
+
+#include <memory>
+
+namespace mergel::coupling {
+
+/// How particles are held at the plane y = 0.
+enum class SymmetryPlane {
+  none,    ///< there is no such plane
+  contact, ///< particles and their images are in contact only
+  bonded   ///< and bonded
+};
+
+/// What a coupled system has besides particles and structures.
+struct CoupledSpec {
+  dem::PairMaterials material;
+  dem::Motion motion;                           ///< of the particles
+  double skin = 0.0;                            ///< of the Verlet list at S = 1 [m], > 0
+  double safety = dem::default_safety;          ///< of the time step, in (0, 1]
+  SymmetryPlane symmetry = SymmetryPlane::none; ///< of a half model
+  dem::StrengthVariability strengths;           ///< drawn again when a state is loaded
+};
+
+/// A structure on its way into a coupled system.
+struct StructureSpec {
+  std::string name; ///< beginning of its names in a checkpoint, such as "far_field"
+  std::unique_ptr<Structure> structure;
+  dem::ContactLaw contact;  ///< of the particles with its wall
+  bool is_bonded = false;   ///< particles near its wall are bonded to it at the start
+  bool bonds_yield = false; ///< these bonds follow the bond law, else stay elastic
+};
+
+/// Progress of a coupled system towards equilibrium: walls held, both free, done.
+struct Settling {
+  enum class Phase { held, free, done } phase = Phase::held;
+  std::size_t n = 0; ///< steps in this phase
+};
+
+/// Neither copied nor moved, because the exchanges refer to the structures.
+struct CoupledSystem {
+  /// A structure and its wall.
+  struct Member {
+    std::string name;
+    std::unique_ptr<Structure> structure;
+    std::size_t wall; ///< index of the wall of the assembly that it moves
+    Exchange exchange;
+  };
+
+  dem::Assembly assembly;
+  std::vector<Member> structures;
+  bool are_structures_held = false; ///< true: none takes part in the steps
+  double dt = 0.0;                  ///< time step [s]; never grows
+  double dt_before = 0.0;           ///< previous time step [s]
+  double safety = dem::default_safety;
+  std::size_t n_steps = 0;
+  double time = 0.0;          ///< since the specimen was placed in its walls [s]
+  Settling settling;          ///< advanced by equilibrate()
+  std::vector<dem::Vec3> x_0; ///< positions in equilibrium, set by equilibrate() [m]
+
+  /// Particles at rest between the walls of the structures; collective.
+  /// @param bonding its largest gap holds for walls and symmetry plane too
+  CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec> structures,
+                const dem::Particles& particles, const dem::Bonding& bonding,
+                MPI_Comm comm);
+  /// As it was when save() wrote the state; collective. Empties the state.
+  /// @param rigid_walls those that it had then
+  /// @throws InputError when the state is of another system
+  CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec> structures,
+                dem::State& state, std::vector<dem::RigidWall> rigid_walls, MPI_Comm comm);
+  CoupledSystem(const CoupledSystem&) = delete;
+  CoupledSystem& operator=(const CoupledSystem&) = delete;
+
+  /// One coupled step (coupling/README.md, Coupled step). `move_others(dt)` moves the walls
+  /// that belong to no structure.
+  /// @throws Unstable naming the failure, the step and the time
+  template <class MoveOthers>
+  void step(MoveOthers&& move_others);
+
+  /// Compute the critical step of the particles again, and of the structures if
+  /// `structures_too`; lower dt where it fell. Collective.
+  void lower_time_step(bool structures_too);
+
+  /// Give slow ranks fewer particles. The results do not depend on it, bit for bit.
+  /// Collective.
+  void balance_load();
+
+  /// Largest of the unbalanced-force ratios of particles and moving structures.
+  double unbalanced() const;
+
+  /// Worst of the interface balances of all structures; collective.
+  InterfaceBalance balance();
+
+  EnergyBalances energy_balances() const;
+
+  /// Wall-clock time spent in all structures, and in the exchanges [s].
+  double structure_seconds() const;
+  double exchange_seconds() const;
+
+  bool moves(const Member& s) const { return !are_structures_held && s.structure->moves(); }
+  dem::Wall& wall_of(const Member& s) { return assembly.walls[s.wall]; }
+
+  static constexpr std::size_t steps_between_structure_checks = 5000;
+  static constexpr std::size_t steps_between_load_checks = 1000;
+  static constexpr double imbalance_allowed = 1.05; ///< slowest over fastest rank
+
+  /// Add the arrays that the constructor above reads; collective.
+  void save(dem::State& state) const;
+
+private:
+  /// Walls without particles. Takes the structures out of `specs`.
+  CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>& specs);
+
+  std::string where() const; ///< step and time, for messages
+
+  double spent_before_ = 0.0; ///< computing time at the last balance_load() [s]
+};
+
+template <class MoveOthers>
+void CoupledSystem::step(MoveOthers&& move_others)
+{
+  if (n_steps % dem::steps_between_step_checks == 0)
+    lower_time_step(n_steps % steps_between_structure_checks == 0);
+  if (n_steps % steps_between_load_checks == 0) balance_load();
+
+  const auto move_walls = [&](double h) {
+    for (Member& s : structures) {
+      if (!moves(s)) continue;
+      s.exchange.sum_forces(wall_of(s));   // f_s = N^T f_wall at x^n
+      s.exchange.step_structure(h);        // v_s^{n+1/2}
+      s.exchange.move_wall(wall_of(s), h); // v_wall = N v_s, x_wall^{n+1}
+    }
+    move_others(h);
+  };
+  try {
+    // Particles get v^{n+1/2} and x^{n+1}, then the walls move, then follow the forces at
+    // x^{n+1}.
+    dem::advance(assembly, dt_before, dt, move_walls);
+  } catch (const Unstable& e) {
+    throw Unstable(e.what() + where());
+  } catch (const NumericalError& e) {
+    throw NumericalError(e.what() + where());
+  }
+  dt_before = dt;
+  time += dt;
+  ++n_steps;
+}
+
+} // namespace mergel::coupling

@@ -1,0 +1,141 @@
+#include "coupling/equilibrium.h"
+
+#include "dem/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace mergel::coupling {
+
+namespace {
+
+std::string shown(double ratio)
+{
+  char text[48];
+  std::snprintf(text, sizeof text, "unbalanced-force ratio %.1e", ratio);
+  return text;
+}
+
+/// One phase of settling and who hears of it.
+struct Phase {
+  const char* name;
+  const EquilibriumSpec& spec;
+  const EquilibriumReport& report;
+  const std::function<void()>& after_step;
+};
+
+/// Step until the unbalanced-force ratio is below that of the spec.
+void relax(CoupledSystem& coupled, const Phase& phase)
+{
+  const auto after_step = [&] {
+    if (phase.after_step) phase.after_step();
+  };
+  if (phase.report.begin) phase.report.begin(phase.name);
+  const double ratio = phase.spec.ratio;
+  double now = coupled.unbalanced(), first = now;
+  std::size_t& n = coupled.settling.n;
+  while (n < phase.spec.max_steps) {
+    coupled.step([](double) {});
+    ++n;
+    if (n % 50 != 0) {
+      after_step();
+      continue;
+    }
+    dem::check_overlaps(coupled.assembly);
+    now = coupled.unbalanced();
+    first = std::max(first, now);
+    if (coupled.assembly.comm.global_sum(coupled.assembly.losses.broken) > 0)
+      throw Unstable(
+          "a bond broke before equilibrium (" + shown(now) +
+          "): the specimen is too weak for its own weight, or was made under pressure");
+    if (now < ratio) {
+      if (phase.report.done)
+        phase.report.done(shown(now) + ", " + std::to_string(n) + " steps");
+      return;
+    }
+    const double part = std::log(first / now) / std::log(first / ratio);
+    if (phase.report.update) phase.report.update(std::clamp(part, 0.0, 1.0), shown(now));
+    after_step();
+  }
+  throw Unstable(std::string(phase.name) + ": no equilibrium in " +
+                 std::to_string(phase.spec.max_steps) + " steps: " + shown(now) +
+                 ", required " + dem::shortest(ratio) +
+                 "; raise `Motion/damping` or `Motion/unbalanced-force tolerance`");
+}
+
+/// Displacement of wall nodes, of all walls one after the other.
+struct WallMotion {
+  Nodal x; ///< before it [m]
+  Nodal u; ///< [m]
+};
+
+/// Put the structures in static equilibrium under the wall forces; their walls follow.
+WallMotion settle_structures(CoupledSystem& coupled)
+{
+  WallMotion motion;
+  for (CoupledSystem::Member& s : coupled.structures) {
+    if (!coupled.moves(s)) continue;
+    dem::Wall& wall = coupled.wall_of(s);
+    const Nodal x = wall.x;
+    const std::optional<Nodal> u = s.exchange.settle(wall);
+    if (!u) continue;
+    // The motion over one step, so that every history is updated.
+    for (std::size_t k = 0; k < u->size(); ++k) wall.v[k] = (*u)[k] / coupled.dt;
+    motion.x.insert(motion.x.end(), x.begin(), x.end());
+    motion.u.insert(motion.u.end(), u->begin(), u->end());
+  }
+  return motion;
+}
+
+/// The particles follow the walls by interpolation, in one step that is at rest before and
+/// after.
+void follow_walls(CoupledSystem& coupled, const WallMotion& motion)
+{
+  const double dt = coupled.dt;
+  dem::Particles& p = coupled.assembly.particles;
+  p.for_owned([&](dem::Index i) {
+    dem::ParticleState& b = p.state[i];
+    const dem::Vec3 moved = interpolate_inside(motion.x, motion.u, b.x);
+    b.x += moved;
+    b.v = moved / dt;
+    b.omega.setZero();
+  });
+  coupled.assembly.list.invalidate();
+  dem::add_forces(coupled.assembly, dt);
+  p.for_owned([&](dem::Index i) { p.state[i].v.setZero(); });
+  for (dem::Wall& wall : coupled.assembly.walls)
+    for (dem::Vec3& v : wall.v) v.setZero();
+}
+
+bool has_moving_structure(const CoupledSystem& coupled)
+{
+  return std::any_of(coupled.structures.begin(), coupled.structures.end(),
+                     [&](const auto& s) { return coupled.moves(s); });
+}
+
+} // namespace
+
+void equilibrate(CoupledSystem& coupled, const EquilibriumSpec& spec,
+                 const EquilibriumReport& report, const std::function<void()>& after_step)
+{
+  Settling& settling = coupled.settling;
+  if (settling.phase == Settling::Phase::held) {
+    coupled.are_structures_held = true;
+    relax(coupled, {"settling in held walls", spec, report, after_step});
+    coupled.are_structures_held = false;
+    const WallMotion motion = settle_structures(coupled);
+    if (!motion.x.empty()) follow_walls(coupled, motion);
+    settling = {Settling::Phase::free, 0};
+  }
+  if (settling.phase == Settling::Phase::free) {
+    if (has_moving_structure(coupled))
+      relax(coupled, {"settling in free walls", spec, report, after_step});
+    dem::Assembly& assembly = coupled.assembly;
+    assembly.partition.gather_motion(assembly.particles, assembly.comm);
+    for (const dem::ParticleState& b : assembly.particles.state) coupled.x_0.push_back(b.x);
+    settling = {Settling::Phase::done, 0};
+  }
+}
+
+} // namespace mergel::coupling

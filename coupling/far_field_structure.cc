@@ -1,0 +1,156 @@
+#include "coupling/far_field_structure.h"
+
+#include "dem/io/state/named_numbers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace mergel::coupling {
+
+namespace {
+
+using dem::uz;
+
+/// The four nodal fields of a motion, by name.
+template <class Motion>
+auto fields_of(const std::string& name, Motion& m)
+{
+  return std::array<std::pair<std::string, decltype(&m.u)>, 4>{
+      {{name + "_u", &m.u},
+       {name + "_v", &m.v},
+       {name + "_Ku", &m.Ku},
+       {name + "_f", &m.f_interface}}};
+}
+
+template <class Motion>
+dem::NumbersOf<Motion> numbers_of(Motion& m)
+{
+  auto& e = m.energy;
+  return {{"time step [s]", &m.dt},
+          {"kinetic energy [J]", &e.kinetic},
+          {"strain energy [J]", &e.strain},
+          {"work at the interface [J]", &e.interface_work},
+          {"work of gravity [J]", &e.gravity_work},
+          {"work of the initial stress [J]", &e.initial_stress_work},
+          {"loss by damping [J]", &e.damping}};
+}
+
+/// Length of a row of a nodal field: x, y, z and a fourth number for alignment.
+constexpr std::size_t nodal_columns = 4;
+
+} // namespace
+
+Interface make_interface(const fem::InterfaceMesh& mesh, const dem::ContactLaw& contact,
+                         double collar_height)
+{
+  std::vector<dem::Vec3> x = mesh.x;
+  std::vector<dem::Triangle> triangles = mesh.triangles;
+  std::vector<int> follows(x.size()); // far-field node of each wall node
+  for (std::size_t k = 0; k < x.size(); ++k) follows[k] = static_cast<int>(k);
+
+  if (collar_height > 0.0) {
+    // The rim at z = 0: edges of one triangle only, with both ends in the surface.
+    const auto in_surface = [&](int k) {
+      return std::abs(mesh.x[uz(k)].z()) < fem::coincidence * mesh.x[uz(k)].norm();
+    };
+    std::map<int, int> raised;
+    const auto raise = [&](int k) {
+      const auto [entry, is_new] = raised.try_emplace(k, static_cast<int>(x.size()));
+      if (is_new) {
+        x.push_back(mesh.x[uz(k)] + dem::Vec3(0.0, 0.0, collar_height));
+        follows.push_back(k);
+      }
+      return entry->second;
+    };
+    for (const dem::Triangle& t : mesh.triangles)
+      for (std::size_t e = 0; e < 3; ++e) {
+        const int a = t[e], b = t[(e + 1) % 3];
+        if (!in_surface(a) || !in_surface(b)) continue;
+        const int a_up = raise(a), b_up = raise(b);
+        // The edge reversed: the normal is on the same side as that of the triangle below.
+        triangles.push_back({b, a, a_up});
+        triangles.push_back({b, a_up, b_up});
+      }
+  }
+  return {dem::make_wall(x, std::move(triangles), contact), follow(follows, mesh.x.size())};
+}
+
+FarFieldStructure::FarFieldStructure(fem::FarField far_field, Model model,
+                                     double collar_height)
+    : far_field_(std::move(far_field)), model_(model), collar_height_(collar_height)
+{
+}
+
+Interface FarFieldStructure::interface(const dem::ContactLaw& contact) const
+{
+  return make_interface(far_field_.interface(), contact, collar_height_);
+}
+
+void FarFieldStructure::positions(Nodal& x) const
+{
+  far_field_.interface_displacement(x);
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = far_field_.interface().x[k] + x[k];
+}
+
+void FarFieldStructure::velocities(Nodal& v) const
+{
+  far_field_.interface_velocity(v);
+}
+
+void FarFieldStructure::step(double dt, const Nodal& f)
+{
+  far_field_.step(dt, f);
+}
+
+std::optional<Nodal> FarFieldStructure::solve_static(const Nodal& f)
+{
+  far_field_.solve_static(f);
+  Nodal u;
+  far_field_.interface_displacement(u);
+  return u;
+}
+
+double FarFieldStructure::stable_time_step(std::span<const double> k_wall,
+                                           double safety) const
+{
+  return safety * far_field_.stable_time_step(k_wall) /
+         std::sqrt(1.0 + far_field_.damping());
+}
+
+double FarFieldStructure::unbalanced_ratio() const
+{
+  return far_field_.unbalanced_ratio();
+}
+
+StructureEnergies FarFieldStructure::energies() const
+{
+  const fem::Energies e = far_field_.energies();
+  return {e.kinetic, e.strain, e.interface_work, e.gravity_work, e.initial_stress_work,
+          e.damping};
+}
+
+void FarFieldStructure::save(dem::State& state, const std::string& name) const
+{
+  for (const auto& [array, field] : fields_of(name, far_field_.motion()))
+    state.add_common(array,
+                     std::vector<double>(field->data(), field->data() + field->size()),
+                     nodal_columns);
+  dem::save_numbers(state, name + "_numbers", numbers_of(far_field_.motion()));
+}
+
+void FarFieldStructure::load(const dem::State& state, const std::string& name)
+{
+  fem::NodalMotion motion = far_field_.motion();
+  for (const auto& [array, field] : fields_of(name, motion)) {
+    const auto& values = state.get_rows<double>(
+        array, static_cast<std::size_t>(field->cols()), nodal_columns);
+    std::copy(values.begin(), values.end(), field->data());
+  }
+  dem::load_numbers(state, name + "_numbers", numbers_of(motion));
+  far_field_.restore(std::move(motion));
+}
+
+} // namespace mergel::coupling

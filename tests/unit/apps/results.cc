@@ -1,0 +1,107 @@
+#include "apps/run/results.h"
+
+#include "dem/error.h"
+#include "tests/support/temporary_folder.h"
+
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+using namespace mergel;
+using namespace mergel::apps;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+void write(const fs::path& file, const std::string& text = "x")
+{
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << text;
+}
+
+/// A series of one file, fields/NAME_0000.vtp.
+void write_series(const fs::path& folder, const std::string& name)
+{
+  write(folder / (name + ".pvd"),
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
+        "<Collection>\n<DataSet timestep=\"0\" part=\"0\" file=\"fields/" +
+            name + "_0000.vtp\"/>\n</Collection>\n</VTKFile>\n");
+  write(folder / "fields" / (name + "_0000.vtp"));
+}
+
+/// What a finished element run leaves.
+void write_element_run(const fs::path& folder, const std::string& pictures)
+{
+  write(folder / "resolved.prm", "subsection Loading\n set stage 1 = x\nend\n"
+                                 "subsection Output\n set pictures = " +
+                                     pictures + "\nend\n");
+  write(folder / "history.csv");
+  write(folder / "summary.json");
+  if (pictures == "none") return;
+  write_series(folder, "particles");
+  write_series(folder, "bonds");
+}
+
+} // namespace
+
+TEST_CASE("A finished run lacks every file that is removed from it", "[unit][apps]")
+{
+  for (const char* removed : {"resolved.prm", "history.csv", "particles.pvd", "bonds.pvd",
+                              "fields/particles_0000.vtp", "fields/bonds_0000.vtp"}) {
+    const TemporaryFolder folder;
+    write_element_run(folder.path, "stages");
+    REQUIRE(job_of(folder.path) == "element");
+    CHECK(missing_results(folder.path, "element", Extent::finished).empty());
+    require_results(folder.path, "element");
+    fs::remove(folder.path / removed);
+    CHECK(missing_results(folder.path, "element", Extent::finished).front() == removed);
+    CHECK_THROWS_WITH(require_results(folder.path, "element"),
+                      Contains("lacks " + std::string(removed)));
+  }
+}
+
+TEST_CASE("Series are owed by the jobs that write them, at the end", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  write_element_run(folder.path, "none");
+  CHECK(missing_results(folder.path, "element", Extent::finished).empty());
+  CHECK(missing_results(folder.path, "bond", Extent::finished).empty());
+  CHECK(missing_results(folder.path, "pile", Extent::begun).empty());
+  CHECK(missing_results(folder.path, "pile", Extent::finished) ==
+        Names{"particles.pvd", "bonds.pvd", "pile.pvd", "far_field.pvd"});
+  CHECK(missing_results(folder.path, "sample", Extent::finished) ==
+        Names{"sample.h5", "particles.pvd", "bonds.pvd"});
+  write(folder.path / "particles.pvd", "no series");
+  CHECK(missing_results(folder.path, "element", Extent::begun) == Names{"particles.pvd"});
+}
+
+TEST_CASE("The job of a folder is told by its case, else by its history", "[unit][apps]")
+{
+  const std::string pile = "subsection Specimen\nend\nsubsection Pile\nend\n";
+  const auto job = [](const std::vector<std::pair<const char*, std::string>>& files) {
+    const TemporaryFolder folder;
+    for (const auto& [name, text] : files) write(folder.path / name, text);
+    return job_of(folder.path);
+  };
+  CHECK(job({{"resolved.prm", pile}}) == "pile");
+  CHECK(job({{"resolved.prm", pile}, {"sample.h5", "x"}}) == "sample");
+  CHECK(job({{"resolved.prm", pile}, {"sample.h5", "x"}, {"history.csv", "x"}}) == "pile");
+  CHECK(job({{"resolved.prm", pile}, {"sample.h5", "x"}, {"far_field.pvd", "x"}}) ==
+        "pile");
+  CHECK(job({{"resolved.prm", pile}, {"sample.h5", "x"}, {"summary.json", "{}"}}) ==
+        "pile");
+  CHECK(job({{"resolved.prm", pile}, {"summary.json", "{\"porosity wanted [-]\": 0.5}"}}) ==
+        "sample");
+  CHECK(job({{"resolved.prm", "subsection Specimen\nend\n"}}) == "sample");
+  CHECK(job({{"resolved.prm", "subsection Particles\nend\nsubsection Loading\nend\n"}}) ==
+        "bond");
+  CHECK(job({{"history.csv", "time [s],depth [m],depth/D_p [-]\n"}}) == "pile");
+  CHECK(job({{"history.csv", "time [s],stage [-],axial strain [-]\n"}}) == "element");
+  CHECK(job({{"history.csv", "u_n [m],plastic theta [rad]\n"}}) == "bond");
+  CHECK(job({{"notes.txt", "x"}}).empty());
+}
