@@ -323,8 +323,8 @@ void help_info(std::ostream& out)
 {
   out << "  PATH  a sample, a checkpoint, or the results folder of a run\n\n"
          "The report on a folder also names the run that is writing there, the failure of "
-         "a run,\ncheckpoints that were set aside, and results that a restart needs and "
-         "that are missing.\n"
+         "a run,\ncheckpoints that were set aside, and files that are missing: then a run "
+         "that has ended is\ncalled incomplete.\n"
          "Exit code 1 when a file is damaged, missing or not written by mergel.\n";
 }
 

@@ -293,11 +293,11 @@ refuse "unknown loading" '--set Loading/mode = tensoin: must be one of .*Did you
 refuse "unknown workload" 'mergel bench: --workload = "W3": must be W1, W2 or all.*' bench --workload W3
 refuse "too few particles" 'mergel bench: --particles = 10: must lie in 200 to 2e7.*' bench --particles 10
 refuse "no steps to time" 'mergel bench: --steps.*must be at least one block of at least one step.*' bench --steps -3
-refuse "a block and a table" 'mergel bench: --write-block excludes --output.*' bench --write-block block.txt --output t.csv
-refuse "a block and steps" 'mergel bench: --write-block excludes --steps.*' bench --write-block block.txt --steps 10
+refuse "a block and a table" 'mergel bench: --(write-block excludes --output|output excludes --write-block).*' bench --write-block block.txt --output t.csv
+refuse "a block and steps" 'mergel bench: --(write-block excludes --steps|steps excludes --write-block).*' bench --write-block block.txt --steps 10
 refuse "a block and a checkpoint" 'mergel bench: --(write-block excludes --checkpoint|checkpoint excludes --write-block).*' \
   bench --write-block block.txt --checkpoint c.h5
-refuse "a checkpoint and repeats" 'mergel bench: --checkpoint excludes --repeat.*' bench --checkpoint c.h5 --repeat 2
+refuse "a checkpoint and repeats" 'mergel bench: --(checkpoint excludes --repeat|repeat excludes --checkpoint).*' bench --checkpoint c.h5 --repeat 2
 refuse "a block of W2" 'mergel bench: --write-block writes W1, and --workload W2 has no effect\. .*' bench --workload W2 --write-block b.txt
 refuse "yielding without bonds" 'mergel bench: --yielding: only W1 has bonds\. Add --workload W1.*' bench --yielding 0.1
 
