@@ -167,6 +167,21 @@ void declare(CaseFile& file, ElementCase& c)
               "Strain of any edge of the cell between two pictures.");
 }
 
+namespace {
+
+/// Tensile force that breaks a bond, over its section [Pa].
+double tensile_strength(const dem::BondLaw& bond)
+{
+  return std::visit(
+      [](const auto& law) {
+        const dem::BondShape<double> shape = bond_shape(law, 1.0, 1.0);
+        return single_strengths(law, shape).tension / shape.A;
+      },
+      bond);
+}
+
+} // namespace
+
 void complete(CaseFile& file, ElementCase& c)
 {
   if (c.specimen.shape != SpecimenKeys::Shape::periodic_box)
@@ -178,9 +193,7 @@ void complete(CaseFile& file, ElementCase& c)
     file.refuse("Analysis", "secant to", "must be beyond `secant from`");
 
   complete(file, c.checkpoints);
-  const double strength =
-      c.bond.law == BondKeys::Law::damage ? c.bond.damage.sigma_t : c.bond.parallel.sigma_c;
-  file.derive("Loading", "reference pressure", strength / 40.0);
+  file.derive("Loading", "reference pressure", tensile_strength(c.bond.chosen()) / 40.0);
   bool is_over = false;
   for (std::size_t k = 0; k < max_stages; ++k) {
     if (c.stage_texts[k].empty()) {

@@ -92,12 +92,12 @@ void write_bonds(const std::filesystem::path& file, const Assembly& assembly)
   write_lines(file, x, lines, {N, V, M, T, D});
 }
 
-void write_revolution(const std::filesystem::path& file, const Revolution& body,
+void write_revolution(const std::filesystem::path& file, const Revolution& shape,
                       const Vec3& x, double z_top)
 {
   constexpr Index n_around = 48; // facets of 3.75 degrees over the half circle
-  std::vector<Revolution::Corner> rings(body.profile.begin() + 1, body.profile.end());
-  rings.push_back({body.R(), std::max(z_top - x.z(), body.tip_height())});
+  std::vector<Revolution::Corner> rings(shape.profile.begin() + 1, shape.profile.end());
+  rings.push_back({shape.R(), std::max(z_top - x.z(), shape.tip_height())});
   const auto n = static_cast<Index>(rings.size());
   std::vector<Vec3> points{x};
   for (Index k = 0; k <= n_around; ++k) {

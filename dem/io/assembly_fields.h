@@ -18,7 +18,7 @@ void write_particles(const std::filesystem::path& file, const Assembly& assembly
 void write_bonds(const std::filesystem::path& file, const Assembly& assembly);
 
 /// The half at y >= 0 of a body of revolution at x, up to z_top [m].
-void write_revolution(const std::filesystem::path& file, const Revolution& body,
+void write_revolution(const std::filesystem::path& file, const Revolution& shape,
                       const Vec3& x, double z_top);
 
 /// Mean damage of the bonds of each particle, broken ones included [-].

@@ -7,7 +7,7 @@
 ///            R* = R_i R_j/(R_i + R_j); against a rigid wall E* and G* are twice that and
 ///            R* = R
 ///
-/// Sources: Hertz (1882); Mindlin (1949), Compliance of elastic bodies in contact, J. Appl.
+/// Sources: Hertz (1882); Mindlin (1949), J. Appl.
 /// Mech. 16, 259, for k_s without slip. Where the overlap falls, f_s falls with k_s, so that
 /// no energy is made (Thornton, Cummins and Cleary 2013, An investigation of the comparative
 /// behaviour of alternative contact force models during inelastic collisions, Powder

@@ -21,7 +21,7 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
 /// Skin of a list at S = 1 over the diameter of the smallest particle, by default [-].
 inline constexpr double default_skin = 0.3;
 
-/// The same beside a body that is pushed in: some hundred steps between two rebuilds at 1 m/s.
+/// The same beside a wall that is pushed in: some hundred steps between two rebuilds at 1 m/s.
 inline constexpr double skin_under_penetration = 0.45;
 
 /// Smallest edge of a periodic cell in which find_pairs() finds each pair once [m]: four

@@ -29,7 +29,7 @@ struct Revolution {
   void check() const;
 
   /// The edge of the shoulder counts as tip.
-  /// @throws NumericalError for a centre inside the body
+  /// @throws NumericalError for a centre inside the wall
   SurfacePoint closest_point(const ParticleState& b, const Vec3& x) const;
 };
 

@@ -15,7 +15,7 @@
 namespace mergel::dem {
 
 /// A shape has named parts, whose resultants are kept apart, and a closest point to a
-/// particle when the body stands at x [m].
+/// particle when the wall stands at x [m].
 // clang-format off
 template <class Shape>
 concept IsRigidShape =

@@ -11,10 +11,10 @@ namespace mergel::dem {
 
 /// The point of a rigid body that is closest to the centre of a particle.
 struct SurfacePoint {
-  Vec3 n = Vec3::Zero();     ///< unit, from the centre of the particle to the body
-  double gap = 0.0;          ///< distance of the particle's surface to the body [m]
+  Vec3 n = Vec3::Zero();     ///< unit, from the centre of the particle to the wall
+  double gap = 0.0;          ///< distance of the particle's surface to the wall [m]
   Vec3 point = Vec3::Zero(); ///< [m]
-  std::size_t part = 0;      ///< part of the body, an index of its shape's `parts`
+  std::size_t part = 0;      ///< part of the wall, an index of its shape's `parts`
 };
 
 /// Position of a wall relative to a particle, at the closest point of the wall.

@@ -26,7 +26,7 @@ ParticleState at(double r, double z, double phi)
 
 } // namespace
 
-TEST_CASE("The closest point of a cone-ended body lies on its cone, shoulder, shaft or tip",
+TEST_CASE("The closest point of a cone-ended wall lies on its cone, shoulder, shaft or tip",
           "[unit][dem]")
 {
   const double phi = GENERATE(0.0, 1.0, 4.0);
@@ -70,16 +70,16 @@ TEST_CASE("Under a flat end the closest point is straight above, beside it on th
 
 TEST_CASE("No point of the profile is closer than the closest point", "[unit][dem]")
 {
-  const Revolution& body = *GENERATE(&cone, &flat, &blunt);
+  const Revolution& shape = *GENERATE(&cone, &flat, &blunt);
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> r(0.0, 1.5e-3), z(-1e-3, 3e-3);
   // Radius of the profile at a height above the tip.
   const auto radius_at = [&](double height) {
-    for (std::size_t k = 1; k < body.profile.size(); ++k) {
-      const auto &a = body.profile[k - 1], &b = body.profile[k];
+    for (std::size_t k = 1; k < shape.profile.size(); ++k) {
+      const auto &a = shape.profile[k - 1], &b = shape.profile[k];
       if (height < b.z) return a.r + (b.r - a.r) * (height - a.z) / (b.z - a.z);
     }
-    return body.R();
+    return shape.R();
   };
   int n_outside = 0;
   double worst = 0.0;
@@ -87,17 +87,17 @@ TEST_CASE("No point of the profile is closer than the closest point", "[unit][de
     const double r_k = r(random), z_k = z(random);
     const ParticleState b = at(r_k, z_k, 0.3);
     if (z_k > 0.0 && r_k < radius_at(z_k)) {
-      CHECK_THROWS_AS(body.closest_point(b, lowest), mergel::NumericalError);
+      CHECK_THROWS_AS(shape.closest_point(b, lowest), mergel::NumericalError);
       continue;
     }
     ++n_outside;
-    const double gap = body.closest_point(b, lowest).gap;
+    const double gap = shape.closest_point(b, lowest).gap;
     const auto compare = [&](double r_j, double z_j) {
       worst = std::max(worst, gap - (std::hypot(r_j - r_k, z_j - z_k) - R));
     };
     for (int j = 0; j <= 400; ++j) compare(radius_at(0.01e-3 * j), 0.01e-3 * j);
     for (int j = 0; j <= 100; ++j) // horizontal pieces have no height of their own
-      compare(0.01 * j * body.profile[1].r, 0.01 * j * body.profile[1].z);
+      compare(0.01 * j * shape.profile[1].r, 0.01 * j * shape.profile[1].z);
   }
   CHECK(n_outside > 1000);
   CHECK(worst < 1e-15);
@@ -105,7 +105,7 @@ TEST_CASE("No point of the profile is closer than the closest point", "[unit][de
 
 TEST_CASE("A profile must be convex and run outwards and upwards", "[unit][dem]")
 {
-  for (const Revolution* body : {&cone, &flat, &blunt}) CHECK_NOTHROW(body->check());
+  for (const Revolution* shape : {&cone, &flat, &blunt}) CHECK_NOTHROW(shape->check());
   const auto refuses = [](std::vector<Revolution::Corner> profile) {
     CHECK_THROWS_AS(Revolution{std::move(profile)}.check(), mergel::InputError);
   };

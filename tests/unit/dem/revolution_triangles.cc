@@ -14,10 +14,10 @@ constexpr double R = 0.2e-3;
 const LinearMaterial law = contact(1e9, 2.0, 0.0, 0.0);
 
 /// Diameter 1.4 mm, cone of 60 degrees.
-const Revolution exact_body = cone_ended(0.7e-3, 0.7e-3 * std::sqrt(3.0));
+const Revolution exact_shape = cone_ended(0.7e-3, 0.7e-3 * std::sqrt(3.0));
 
-/// The body with n chords around it, each corner on the true surface.
-Wall body_of_triangles(const Revolution& s, int n)
+/// The surface with n chords around it, each corner on the true surface.
+Wall wall_of_triangles(const Revolution& s, int n)
 {
   std::vector<Vec3> x{{0, 0, 0}};
   const auto ring = [&](double r, double z) {
@@ -47,8 +47,8 @@ Wall body_of_triangles(const Revolution& s, int n)
 /// relative to the force.
 double largest_error(int n)
 {
-  const Revolution& s = exact_body;
-  Wall wall = body_of_triangles(s, n);
+  const Revolution& s = exact_shape;
+  Wall wall = wall_of_triangles(s, n);
   Particles exact;
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> u(0.0, 1.0);
@@ -79,7 +79,7 @@ double largest_error(int n)
 /// Depth of the chord below the arc [m].
 double sagitta(int n)
 {
-  return exact_body.R() * (1.0 - std::cos(pi / n));
+  return exact_shape.R() * (1.0 - std::cos(pi / n));
 }
 
 } // namespace
@@ -98,12 +98,12 @@ TEST_CASE("A triangulated body of revolution has the force of the exact one to s
   CHECK(e_200 / e_400 == Approx(4.0).epsilon(0.15));
 }
 
-TEST_CASE("A particle at the shoulder of a triangulated body has one contact force",
+TEST_CASE("A particle at the shoulder of a triangulated surface has one contact force",
           "[unit][dem]")
 {
   // The shoulder is a ridge of 30 degrees, the limit of one smooth patch.
-  const Revolution& s = exact_body;
-  Wall wall = body_of_triangles(s, 200);
+  const Revolution& s = exact_shape;
+  Wall wall = wall_of_triangles(s, 200);
   Particles p;
   const double a = 0.95 * R, c15 = std::cos(pi / 12.0), s15 = std::sin(pi / 12.0);
   p.add(sphere({s.R() + a * c15, 0.0, s.tip_height() - a * s15}, R)); // before the ridge
