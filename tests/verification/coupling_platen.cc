@@ -25,8 +25,7 @@ CoupledSpec bonds_alone(double damping)
   bond.u_c = 1e-4;
   bond.theta_c = 0.1;
   spec.material.bond = bond;
-  spec.material.contact.E = 1.0;
-  spec.material.contact = dem::LinearMaterial{.g_a = -1.0}; // never in contact
+  spec.material.contact = dem::LinearMaterial{1.0, 1.0, 0.0, -1.0}; // never in contact
   spec.motion.damping = damping;
   spec.skin = 0.1 * R;
   return spec;
@@ -476,7 +475,8 @@ TEST_CASE("disc and rectangle have their area, inertia and axis", "[unit][coupli
   CHECK(spec.mesh.axis == Vec3(0.0, 1.0, 0.0));
   // m r^2/4; the polygon outside the circle is larger by (pi/n)^2/3 in r^2.
   CHECK(RigidPlaten(spec).inertia() == Approx(5.0 * 4.0 / 4.0).epsilon(1e-4));
-  const dem::Wall wall = RigidPlaten(spec).interface({1e9, 2.0, 0.0, 0.0}).wall;
+  const dem::Wall wall =
+      RigidPlaten(spec).interface(dem::LinearMaterial{1e9, 2.0, 0.0, 0.0}).wall;
   for (const Vec3& n : wall.normals) CHECK((n - spec.mesh.axis).norm() < 1e-12);
   for (std::size_t k = 1; k < spec.mesh.x.size(); ++k)
     CHECK((spec.mesh.x[k] - spec.mesh.x[0]).norm() > 2.0);
