@@ -67,7 +67,8 @@ void relax(CoupledSystem& coupled, const Phase& phase)
 /// Displacement of wall nodes, of all walls one after the other.
 struct WallMotion {
   Nodal x; ///< before it [m]
-  Nodal u; ///< [m]
+  Nodal u; ///< [m]; zero where a structure has no static solution
+  bool is_any = false;
 };
 
 /// Put the structures in static equilibrium under the wall forces; their walls follow.
@@ -75,14 +76,14 @@ WallMotion settle_structures(CoupledSystem& coupled)
 {
   WallMotion motion;
   for (CoupledSystem::Member& s : coupled.structures) {
-    if (!coupled.moves(s)) continue;
     dem::Wall& wall = coupled.wall_of(s);
-    const Nodal x = wall.x;
-    const std::optional<Nodal> u = s.exchange.settle(wall);
-    if (!u) continue;
+    motion.x.insert(motion.x.end(), wall.x.begin(), wall.x.end());
+    std::optional<Nodal> u;
+    if (coupled.moves(s)) u = s.exchange.settle(wall);
+    motion.is_any |= u.has_value();
+    if (!u) u = Nodal(wall.x.size(), dem::Vec3::Zero());
     // The motion over one step, so that every history is updated.
     for (std::size_t k = 0; k < u->size(); ++k) wall.v[k] = (*u)[k] / coupled.dt;
-    motion.x.insert(motion.x.end(), x.begin(), x.end());
     motion.u.insert(motion.u.end(), u->begin(), u->end());
   }
   return motion;
@@ -125,7 +126,7 @@ void equilibrate(CoupledSystem& coupled, const EquilibriumSpec& spec,
     relax(coupled, {"settling in held walls", spec, report, after_step});
     coupled.are_structures_held = false;
     const WallMotion motion = settle_structures(coupled);
-    if (!motion.x.empty()) follow_walls(coupled, motion);
+    if (motion.is_any) follow_walls(coupled, motion);
     settling = {Settling::Phase::free, 0};
   }
   if (settling.phase == Settling::Phase::free) {

@@ -47,10 +47,12 @@ void declare_far_field(CaseFile& file, CoupledCase& c)
                   {"frictional", InterfaceBond::frictional}},
               "How particles are held at the far field: elastic bonds, bonds that may "
               "break, contact only.");
-  file.derived("interface modulus", c.interface_modulus, "Pa", positive, "that of Contact",
-               "Effective modulus of the contact of particles with the far field, which is "
-               "the same rock.",
-               "GPa");
+  file.derived(
+      "interface modulus", c.interface_modulus, "Pa", positive, "that between particles",
+      "Modulus of the contact of particles with the far field, in the sense of the "
+      "contact law. Both sides are the same rock: by default `Contact/effective "
+      "modulus` (linear), or half of `Contact/Young's modulus` (hertz).",
+      "GPa");
   file.derived("interface friction", c.interface_friction, "1", non_negative,
                "Contact/friction", "Friction coefficient of that contact.");
   file.former_name("lip", "collar height");
@@ -122,7 +124,8 @@ void complete(CaseFile& file, CoupledCase& c)
     f.E = 1.0;
     f.nu = f.K0 = f.gravity = 0.0;
   }
-  file.derive("Far field", "interface modulus", dem::modulus(c.material.contact));
+  file.derive("Far field", "interface modulus",
+              0.5 * dem::modulus_at_rigid_wall(c.material.contact));
   file.derive("Far field", "interface friction", dem::friction(c.material.contact));
   file.derive("Far field", "collar height", 0.2 * c.diameter);
   f.damping = c.damping;

@@ -26,8 +26,8 @@ struct CoupledCase : SpecimenKeys {
   // Far field
   coupling::FarFieldStructure::Model model = coupling::FarFieldStructure::Model::elastic;
   fem::FarFieldSpec far_field;
-  double interface_modulus = 0.63e9; ///< [Pa]
-  double interface_friction = 0.3;   ///< [-]
+  double interface_modulus = unset;  ///< [Pa]
+  double interface_friction = unset; ///< [-]
   dem::ContactLaw interface;         ///< set by complete()
   InterfaceBond interface_bond = InterfaceBond::bonded;
   double collar_height = unset; ///< [m]

@@ -46,7 +46,7 @@ dem::RigidWall make_pile(const PileCase& c)
 }
 
 Installation::Installation(const PileCase& c, coupling::CoupledSystem& coupled,
-                           PileOutput* output)
+                           std::optional<PileOutput>& output)
     : case_(c), coupled_(coupled), output_(output), rate_(c), next_record_(c.record_every)
 {
 }

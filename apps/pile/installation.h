@@ -8,6 +8,7 @@
 #include "dem/io/state/named_numbers.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace mergel::apps {
@@ -48,8 +49,9 @@ dem::RigidWall make_pile(const PileCase& c);
 class Installation {
 public:
   /// All arguments must outlive the object.
-  /// @param output null on all ranks but the first
-  Installation(const PileCase& c, coupling::CoupledSystem& coupled, PileOutput* output);
+  /// @param output on the first rank, set before begin() or run(); nothing on the others
+  Installation(const PileCase& c, coupling::CoupledSystem& coupled,
+               std::optional<PileOutput>& output);
 
   /// Whether the state was saved after the penetration began.
   static bool is_in(const dem::State& state) { return state.has("push"); }
@@ -105,7 +107,7 @@ private:
 
   const PileCase& case_;
   coupling::CoupledSystem& coupled_;
-  PileOutput* output_;
+  std::optional<PileOutput>& output_;
   PenetrationRate rate_;
   coupling::EnergyBalances start_;
   BreakageCount breakage_;

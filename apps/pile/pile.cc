@@ -49,7 +49,6 @@ public:
 
 private:
   const PileOutput* output() const { return output_ ? &*output_ : nullptr; }
-  void make_installation();
 
   PileCase case_;
   std::optional<PileOutput> output_; ///< on the first rank
@@ -99,25 +98,20 @@ std::string PileJob::what_is_done(const Restart& restart) const
          ". To push it further, restart with a larger `Pile/final depth`.";
 }
 
-void PileJob::make_installation()
-{
-  installation_.emplace(case_, *coupled_, output_ ? &*output_ : nullptr);
-}
-
 void PileJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
 {
   fem::FarField far_field = make_far_field(case_.assembly, comm);
   const dem::Sample sample = obtain_sample(file, case_.assembly);
   std::cout << far_field.summary() << '\n' << report(case_.assembly, sample) << '\n';
+  coupled_.emplace(coupled_spec(case_.assembly),
+                   structures(case_.assembly, std::move(far_field)),
+                   sample.packing.particles, sample.bonding, comm);
+  installation_.emplace(case_, *coupled_, output_);
   folder.prepare();
   on_first_rank([&] {
     dem::write_sample(folder.path() / "sample.h5", sample);
     output_.emplace(folder.path(), case_);
   });
-  coupled_.emplace(coupled_spec(case_.assembly),
-                   structures(case_.assembly, std::move(far_field)),
-                   sample.packing.particles, sample.bonding, comm);
-  make_installation();
 }
 
 void PileJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
@@ -133,19 +127,21 @@ void PileJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
                    structures(case_.assembly, std::move(far_field)), state,
                    std::move(piles), comm);
   if (find_change(restart, "Motion", "time step safety")) coupled_->lower_time_step(true);
+  installation_.emplace(case_, *coupled_, output_);
+  if (is_penetrating_) {
+    installation_->load(state);
+    if (const Push before = Installation::push_in(state);
+        before.is_over() && before.tip < case_.travel())
+      std::cout << "the pile starts again from rest, "
+                << mm(before.tip - case_.tip_height()) << " deep: the curve is that of "
+                << installation_->n_pushes() << " pushes\n";
+    if (find_change(restart, "Output", "record every")) installation_->space_records_anew();
+    if (find_change(restart, "Pile", "final depth") ||
+        find_change(restart, "Output", "frames"))
+      installation_->space_frames_anew();
+  }
   folder.prepare();
   on_first_rank([&] { output_.emplace(folder.path(), case_, restart.folder, state); });
-  make_installation();
-  if (!is_penetrating_) return;
-  installation_->load(state);
-  if (const Push before = Installation::push_in(state);
-      before.is_over() && before.tip < case_.travel())
-    std::cout << "the pile starts again from rest, " << mm(before.tip - case_.tip_height())
-              << " deep: the curve is that of " << installation_->n_pushes() << " pushes\n";
-  if (find_change(restart, "Output", "record every")) installation_->space_records_anew();
-  if (find_change(restart, "Pile", "final depth") ||
-      find_change(restart, "Output", "frames"))
-    installation_->space_frames_anew();
 }
 
 void PileJob::run(const std::function<void()>& after_step)

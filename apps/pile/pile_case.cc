@@ -33,10 +33,10 @@ void declare(CaseFile& file, PileCase& c)
                   "Of the shoulder below the surface.", "mm");
     file.number("friction", c.friction, non_negative, "Between pile and particles.");
     file.derived(
-        "contact modulus", c.contact_modulus, "Pa", positive, "2 Contact/effective modulus",
-        "Effective modulus of the contact between pile and particles; by default "
-        "twice that between particles, because the pile is rigid and only one side "
-        "yields.",
+        "contact modulus", c.contact_modulus, "Pa", positive, "that of rigid walls",
+        "Modulus of the contact between pile and particles, in the sense of the contact "
+        "law. Only the particle yields: by default 2 `Contact/effective modulus` (linear), "
+        "or `Contact/Young's modulus` (hertz).",
         "GPa");
   }
   const auto section = file.section("Output");

@@ -11,13 +11,13 @@ struct PileCase {
 
   // Pile
   enum class Tip { cone, flat } tip = Tip::cone;
-  double diameter = unset;         ///< [m]
-  double cone_angle = unset;       ///< full angle at the tip [rad]; unset for a flat tip
-  double velocity = unset;         ///< downwards [m/s]
-  double final_depth = unset;      ///< of the shoulder below the surface [m]
-  double contact_modulus = 1.26e9; ///< [Pa]
-  double friction = unset;         ///< [-]
-  dem::ContactLaw contact;         ///< with the particles; set by complete()
+  double diameter = unset;        ///< [m]
+  double cone_angle = unset;      ///< full angle at the tip [rad]; unset for a flat tip
+  double velocity = unset;        ///< downwards [m/s]
+  double final_depth = unset;     ///< of the shoulder below the surface [m]
+  double contact_modulus = unset; ///< [Pa]
+  double friction = unset;        ///< [-]
+  dem::ContactLaw contact;        ///< with the particles; set by complete()
 
   // Output
   double record_every = unset; ///< travel between lines of history.csv [m]

@@ -85,7 +85,7 @@ public:
   /// Throw the exception that is being handled, with the remedy: a CollectiveFailure as
   /// Remedied, another failure of run, system or library (exit code 2) as NumericalError;
   /// bad input and bugs unchanged.
-  /// @param leave_figures writes the results until the run became unstable, and the message
+  /// @param write_results writes the results until the run became unstable, and the message
   ///   that it is given; collective, may throw CollectiveFailure
   /// @pre called from a catch block
   [[noreturn]] void rethrow_with_remedy(

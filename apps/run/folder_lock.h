@@ -16,7 +16,7 @@ namespace mergel::apps {
 class FolderLock {
 public:
   FolderLock() = default; ///< locks nothing
-  /// @param patience longest wait for a run that is just ending [s]
+  /// @param timeout longest wait for a run that is just ending [s]
   /// @throws InputError naming the run that holds it, or when the file cannot be created
   explicit FolderLock(const std::filesystem::path& folder, double timeout = 5.0);
   ~FolderLock();
@@ -36,7 +36,7 @@ private:
   int number_ = -1;
 };
 
-/// Refuse a folder where a run is still writing after `patience` [s]. Creates no file.
+/// Refuse a folder where a run is still writing after `timeout` [s]. Creates no file.
 /// @throws InputError naming that run
 void require_no_run(const std::filesystem::path& folder, double timeout = 5.0);
 

@@ -81,10 +81,9 @@ double seconds_in(const dem::State& state)
   return state.get_rows<double>("seconds", 1).front();
 }
 
-/// Write summary.json or failed.json, and print the closing text.
-void write_summary(const fs::path& file, const Summary& summary)
+/// Print the closing text of a run whose summary is this file.
+void print_summary(const fs::path& file, const Summary& summary)
 {
-  on_first_rank([&] { dem::replace_file(file, summary.object()); });
   const std::string text = summary.closing.str(), folder = file.parent_path().string();
   if (text.empty()) return;
   std::error_code error; // the user sees what there is
@@ -150,13 +149,16 @@ int run_job(CheckpointedJob& job, const JobOptions& options, MPI_Comm comm)
     Summary summary;
     if (!failure.empty()) summary.text("failure", failure);
     job.summarise(summary, {job.position().step - first_step, seconds()});
-    write_summary(folder.path() / name, summary);
+    const fs::path summary_file = folder.path() / name;
+    on_first_rank([&] { dem::replace_file(summary_file, summary.object()); });
+    print_summary(summary_file, summary);
   };
   try {
     job.run([&] { scheduler.after_step(all, job.position(), save); });
-    summarise("summary.json", "");
+    // A summary says that a run is finished: only once its results were looked at.
     job.require_files();
     on_first_rank([&] { require_results(folder.path(), job.name()); });
+    summarise("summary.json", "");
   } catch (...) {
     scheduler.rethrow_with_remedy(
         [&](const std::string& failure) { summarise("failed.json", failure); });

@@ -118,7 +118,7 @@ void print_keys(CheckpointedJob& job, std::ostream& out);
 /// `Output/checkpoint every`, `Output/checkpoint at end` and `Specimen/file`.
 /// @param comm all ranks of the program
 /// @return the exit code
-/// @throws as begin(), resume() and run() do, with how to continue; see
+/// @throws as begin() and resume() do; as run() does, with how to continue: see
 ///   CheckpointScheduler::rethrow_with_remedy()
 int run_job(CheckpointedJob& job, const JobOptions& options,
             MPI_Comm comm = MPI_COMM_WORLD);

@@ -33,11 +33,13 @@ CaseScan case_of(const fs::path& folder)
   }
 }
 
+/// The first line that is no remark.
 std::string first_line(const fs::path& file)
 {
   std::ifstream in(file);
   std::string line;
-  std::getline(in, line);
+  while (std::getline(in, line) && line.starts_with('#')) {
+  }
   return line;
 }
 

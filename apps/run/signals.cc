@@ -10,7 +10,7 @@ namespace mergel::apps {
 
 namespace {
 
-volatile std::sig_atomic_t stop_signal = 0, has_usr1 = 0;
+volatile std::sig_atomic_t stop_signal = 0, has_int = 0, has_usr1 = 0;
 
 constexpr std::array<int, 3> stopping{SIGTERM, SIGINT, SIGHUP};
 
@@ -38,11 +38,12 @@ extern "C" void remember_checkpoint(int)
 extern "C" void remember_stop(int number)
 {
   if (number == SIGINT) {
-    if (stop_signal == SIGINT) { // the user does not want to wait
+    if (has_int) { // the user does not want to wait
       std::signal(SIGINT, SIG_DFL);
       std::raise(SIGINT); // as soon as this handler returns
       return;
     }
+    has_int = 1;
     constexpr char text[] =
         "\nstopping behind a checkpoint; a second Ctrl-C ends the run at once\n";
     [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, text, sizeof text - 1);
@@ -61,6 +62,7 @@ bool are_interrupts_ignored = false, are_hangups_ignored = false;
 Signals::Signals()
 {
   stop_signal = 0;
+  has_int = 0;
   has_usr1 = 0;
   for (std::size_t k = 0; k < stopping.size(); ++k) {
     before[k] = handler_of(stopping[k]);

@@ -28,6 +28,7 @@ concept IsContactLaw =
   { law.E } -> std::same_as<double&>;
   { law.mu } -> std::same_as<double&>;
   { modulus_at_rigid_wall(law) } -> std::same_as<double>;
+  { without_gap(law) } -> std::same_as<Law>;
   { activation_gap(law) } -> std::same_as<double>;
   { contact_stiffness(law, many, S) } -> std::same_as<ContactStiffness<Lanes>>;
   { contact_stiffness(law, sides, number) } -> std::same_as<ContactStiffness<double>>;
@@ -94,10 +95,9 @@ inline ContactLaw with_friction(ContactLaw law, double mu)
   return law;
 }
 /// The law without an activation gap: surfaces must touch.
-inline ContactLaw without_gap(ContactLaw law)
+inline ContactLaw without_gap(const ContactLaw& law)
 {
-  if (auto* linear = std::get_if<LinearMaterial>(&law)) linear->g_a = 0.0;
-  return law;
+  return std::visit([](const auto& c) -> ContactLaw { return without_gap(c); }, law);
 }
 
 inline void check(const ContactLaw& law)

@@ -39,6 +39,13 @@ inline double modulus_at_rigid_wall(const LinearMaterial& c)
   return 2.0 * c.E;
 }
 
+/// The same without an activation gap: surfaces must touch.
+inline LinearMaterial without_gap(LinearMaterial c)
+{
+  c.g_a = 0.0;
+  return c;
+}
+
 /// Gap below which a contact acts, at S = 1 [m].
 inline double activation_gap(const LinearMaterial& c)
 {

@@ -310,11 +310,13 @@ void confine(const SpecimenSpec& s, Packing& packing, MPI_Comm comm,
     error_with(is_loose ? dem::friction(s.contact) : 0.0); // the other end of the range
     text << "porosities between " << n_low << " and " << n_high
          << ", with a friction of 0 to " << dem::friction(s.contact)
-         << " while they are packed; change the porosity or "
-         << "`Contact/activation gap`";
+         << " while they are packed; change the porosity"
+         << (activation_gap(s.contact) > 0.0 ? " or `Contact/activation gap`" : "");
   } else {
     text << "a porosity of " << n_low << " only, since they have no friction; change the "
-         << "porosity, `Contact/activation gap` or `Contact/friction`";
+         << "porosity"
+         << (activation_gap(s.contact) > 0.0 ? ", `Contact/activation gap`" : "")
+         << " or `Contact/friction`";
   }
   throw InputError(text.str());
 }

@@ -82,8 +82,8 @@ void SpecimenSpec::check() const
     text << ": at this porosity the particles with their far-field shells would fill "
          << fraction << " of the volume, but "
          << (compaction == Compaction::expanded ? "under pressure" : "at random")
-         << " they fill at most " << most
-         << ". Raise the porosity or lower the activation gap";
+         << " they fill at most " << most << ". Raise the porosity"
+         << (activation_gap(contact) > 0.0 ? " or lower the activation gap" : "");
     throw InputError(text.str());
   }
   require(smallest_width(region) > width_needed(*this),
@@ -191,8 +191,8 @@ void finish_unjammed(const SpecimenSpec& s, Packing& packing, double tolerance,
   text << "cannot be reached unjammed: particles and walls still overlap by "
        << packing.overlap << " of their distance (at most " << jammed_overlap
        << "); these particles are unjammed at porosities from about "
-       << porosity_at(s, jammed_fraction)
-       << " to 1; raise the porosity or lower `Contact/activation gap`";
+       << porosity_at(s, jammed_fraction) << " to 1; raise the porosity"
+       << (activation_gap(s.contact) > 0.0 ? " or lower `Contact/activation gap`" : "");
   require(packing.overlap <= jammed_overlap, text.str());
 }
 

@@ -114,7 +114,7 @@ struct PatchContact {
 /// the distance to the fold less that to the face, so that the force is continuous.
 /// @param wall_travel bound of the motion of a node since the candidate was listed [m]
 /// @throws NumericalError when the centre is on the wrong side of the wall, or when more
-///   than PatchContact::most features are in contact
+///   than PatchContact::max_features are in contact
 std::optional<PatchContact> patch_contact(const Wall& wall,
                                           const ListedCandidate& candidate,
                                           const ParticleState& particle,

@@ -10,6 +10,10 @@ struct ThirdContact {
   double E = 0.0, mu = 0.0;
   void check() const {}
 };
+inline ThirdContact without_gap(const ThirdContact& c)
+{
+  return c;
+}
 inline double modulus_at_rigid_wall(const ThirdContact& c)
 {
   return c.E;

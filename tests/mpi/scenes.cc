@@ -6,6 +6,7 @@
 ///   turning    the same block, rotating and moving across the borders of the ranks
 ///   periodic   a periodic box, two thirds of its contacts bonded, with random velocities
 ///              that break bonds
+///   hertz      the same with Hertz-Mindlin contacts
 ///   element    the same box, compressed along z until bonds break; stress-controlled x, y
 ///   varied     the same, with strengths that vary from particle to particle
 ///   rebuild    lists are also built at every 7th step
@@ -80,7 +81,7 @@ apps::WorkingAssembly make(const std::string& name)
   apps::WorkloadSpec spec;
   spec.n_particles = 3000;
   const bool is_compressed = name == "element" || name == "varied";
-  if (name == "periodic" || is_compressed) {
+  if (name == "periodic" || name == "hertz" || is_compressed) {
     spec.workload = apps::Workload::frictional_packing;
     apps::WorkingAssembly w = apps::make_workload(spec);
     // Two thirds of the contacts are bonded.
@@ -90,7 +91,8 @@ apps::WorkingAssembly make(const std::string& name)
     w.assembly.bonds = make_bonds(w.assembly.particles, w.assembly.cell, bonded);
     w.assembly.contacts = {};
     w.assembly.list.invalidate();
-    if (name == "periodic") stir(w.assembly, 10.0);
+    if (name == "hertz") w.assembly.material.contact = HertzMaterial{1e9, 0.2, 0.4};
+    if (!is_compressed) stir(w.assembly, 10.0);
     w.assembly.cell.is_strain_controlled = is_compressed;
     return w;
   }

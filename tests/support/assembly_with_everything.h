@@ -8,7 +8,8 @@ namespace mergel::dem::test {
 
 /// A row of bonded particles that moves against a plane, a triangulated wall, a mirror and
 /// a cone: every kind of history is present, and none is zero.
-inline Assembly assembly_with_everything()
+inline Assembly assembly_with_everything(const ContactLaw& contact = LinearMaterial{
+                                             1e8, 2.4, 0.3, 1e-4})
 {
   Assembly assembly;
   DamageBond bond;
@@ -19,9 +20,9 @@ inline Assembly assembly_with_everything()
   bond.u_c = 1e-4;
   bond.theta_c = 0.1;
   assembly.material.bond = bond;
-  assembly.material.contact = LinearMaterial{1e8, 2.4, 0.3, 1e-4};
+  assembly.material.contact = contact;
   assembly.motion.gravity = {0.0, 0.0, -9.81};
-  assembly.list = VerletList(1e-4, 1e-3);
+  assembly.list = VerletList(activation_gap(contact), 1e-3);
   for (int k = 0; k < 6; ++k) {
     ParticleState b;
     b.R = 0.01;

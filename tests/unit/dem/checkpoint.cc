@@ -111,6 +111,30 @@ TEST_CASE("an assembly continues from a checkpoint with the same bits", "[unit][
   CHECK(assembly.mirrors.front().energy.value() > 0.0);
 }
 
+TEST_CASE("a Hertz contact continues with the same bits and the same stable step",
+          "[unit][dem]")
+{
+  // Its stiffness depends on the overlaps of the walls, which the state must hold.
+  const HertzMaterial grains{2e9, 0.2, 0.3};
+  Assembly assembly = assembly_with_everything(grains);
+  for (int k = 0; k < 100; ++k) step(assembly);
+  for (const RigidWall& w : assembly.rigid_walls) CHECK(w.contacts.front().overlap > 0.0);
+  CHECK(assembly.walls.front().contacts.front().overlap > 0.0);
+  State state = kept(assembly);
+  Assembly other = assembly_with_everything(grains);
+  load(state, other);
+  rebuild_lists(other);
+  CHECK(stable_time_step(other, 0.7) == stable_time_step(assembly, 0.7));
+  for (RigidWall& w : other.rigid_walls)
+    for (WallContact& c : w.contacts) c.overlap *= 4.0;
+  CHECK(stable_time_step(other, 0.7) < stable_time_step(assembly, 0.7));
+  for (RigidWall& w : other.rigid_walls)
+    for (WallContact& c : w.contacts) c.overlap *= 0.25;
+  for (int k = 0; k < 100; ++k) step(assembly);
+  for (int k = 0; k < 100; ++k) step(other);
+  CHECK(first_difference(kept(assembly), kept(other)).empty());
+}
+
 TEST_CASE("a file that is not a checkpoint is refused with the reason", "[unit][dem]")
 {
   const TemporaryFolder folder;
