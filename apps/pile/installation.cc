@@ -11,11 +11,10 @@
 
 namespace mergel::apps {
 
-void BreakageCount::collect(dem::Assembly& assembly)
+void BreakageCount::collect(const PileCase& c, dem::Assembly& assembly)
 {
   const dem::RigidWall& pile = assembly.rigid_walls.front();
-  const auto& shape = std::get<dem::Revolution>(pile.shape);
-  const double R = shape.R(), D = 2.0 * R, z_shoulder = pile.x.z() + shape.tip_height();
+  const double D = c.diameter, R = 0.5 * D, z_shoulder = pile.x.z() + c.tip_height();
   std::size_t n_near = 0, n_above = 0;
   for (const dem::Breakage& b : assembly.losses.breakages) {
     const dem::Vec3& x = b.x;
@@ -136,7 +135,7 @@ PileRecord Installation::new_record(const coupling::EnergyBalances& energy_balan
   r.F_tip = half_to_full * force_.tip / static_cast<double>(force_.n);
   r.F_shaft = half_to_full * force_.shaft / static_cast<double>(force_.n);
   r.q_c = r.F_tip / area;
-  breakage_.collect(coupled_.assembly);
+  breakage_.collect(case_, coupled_.assembly);
   r.broken = coupled_.assembly.comm.global_sum(
       coupled_.assembly.losses.broken); // none while settling: equilibrate() throws
   r.unbalanced = coupled_.unbalanced();

@@ -21,7 +21,7 @@ public:
   std::size_t above = 0; ///< more than D_p above the shoulder and outside the shaft
 
   /// Count the bonds that broke since the last call, and clear their list; collective.
-  void collect(dem::Assembly& assembly);
+  void collect(const PileCase& c, dem::Assembly& assembly);
 };
 
 /// Mean pile forces between two records.

@@ -4,6 +4,11 @@ namespace mergel::dem {
 
 RigidWall make_rigid_wall(RigidShape shape, const Vec3& x, const ContactLaw& material)
 {
+  std::visit(
+      [](const auto& s) {
+        if constexpr (requires { s.check(); }) s.check();
+      },
+      shape);
   RigidWall wall;
   wall.force.resize(std::visit([](const auto& s) { return s.parts.size(); }, shape));
   wall.shape = std::move(shape);

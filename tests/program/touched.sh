@@ -38,7 +38,7 @@ touched "renamed" b 'b/history.csv: was removed, renamed or moved' mv history.cs
 touched "saved anew" c 'c/history.csv: was replaced by another file' saved_anew
 touched "emptied" d 'd/history.csv: has [0-9]* bytes where the run wrote [0-9]*' truncate -s 0 history.csv
 touched "a picture" e 'e: was changed while the run wrote there, and lacks fields/particles_0000.vtp' rm fields/particles_0000.vtp
-[ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q 'results folder, incomplete' log &&
+[ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q 'results folder, not finished' log &&
   grep -q '^  missing  *fields/particles_0000.vtp$' log || fail "info without a picture: $(cat log)"
 touched "the case" f 'f: was changed while the run wrote there, and lacks resolved.prm' rm resolved.prm
 
