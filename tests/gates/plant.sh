@@ -147,11 +147,11 @@ gate warnings build mergel_dem
 printf 'int planted(int a)\n{\n  return 0;\n}\n' >dem/planted.cc
 fault "unused parameter" 'dem/planted\.cc:1:.*Werror=unused-parameter'
 
-build_and_test() { build dem_unit && ctest --test-dir build -R '^dem unit: '; }
+build_and_test() { build dem_unit && ctest --test-dir build --no-tests=error -R '^dem unit:'; }
 gate tests build_and_test
 planted_test tests/unit/dem/planted.cc '
   CHECK(std::vector<int>(3).empty());'
-fault "unit test that fails" 'dem unit: planted \(Failed\)'
+fault "unit test that fails" 'dem unit: *planted \(Failed\)'
 
 if [ "$n_checks" -eq 0 ]; then
   echo "plant.sh: no such gate: $*" >&2
