@@ -82,7 +82,8 @@ void add_other_pairs(const Contact& contact_law, const PeriodicCell& cell, doubl
     Lanes pad;
     columns(shear, f_s.x, f_s.y, f_s.z, pad);
 
-    const Triple<Lanes> F = contact_force(law, q, i, j, k, f_s, p, losses);
+    const auto contact = step_contact(law, q, i, j, k, f_s, p, losses);
+    const Triple<Lanes> F = contact.f_s - k.n * contact.f_n;
     const Rows rows = to_rows(k, F, Triple<Lanes>{});
     scatter(p.load.data(), q.i, q.j, q.count, rows);
     if (is_strain_controlled) add_virial(k.n * (k.a_i + k.a_j), F, q, p, losses);

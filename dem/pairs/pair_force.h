@@ -93,19 +93,20 @@ inline void add_slip(const Lanes& loss, const Batch& q, const Particles& p,
     if (loss[l] != 0.0 && p.owns(q.i[l])) losses.slip.add(loss[l]);
 }
 
-/// The contact of a pair: updates its shear force f_s.
+/// The contact of a pair over the step: updates its shear force f_s and counts its slip. The
+/// force on i is f_s - f_n n.
 template <IsContactLaw Contact>
-[[gnu::always_inline]] inline Triple<Lanes>
-contact_force(const Contact& law, const Batch& q, const End<Lanes>& i, const End<Lanes>& j,
-              const PairMotion<Lanes>& k, Triple<Lanes>& f_s, const Particles& p,
-              PairLosses& losses)
+[[gnu::always_inline]] inline ContactStep<Lanes>
+step_contact(const Contact& law, const Batch& q, const End<Lanes>& i, const End<Lanes>& j,
+             const PairMotion<Lanes>& k, Triple<Lanes>& f_s, const Particles& p,
+             PairLosses& losses)
 {
   const Lanes S = 0.5 * (i.S + j.S);
   const auto contact = contact_step(law, sides_of_pair(i.R, j.R, k.inv_L), S,
                                     {k.gap, k.du_n, k.du_s, rotated_with_contact(f_s, k)});
   f_s = contact.f_s;
   add_slip(contact.slip_loss, q, p, losses);
-  return contact.f_s - k.n * contact.f_n;
+  return contact;
 }
 
 /// Bond and contact of a pair: updates the histories h of both.
@@ -132,12 +133,7 @@ pair_force(const Law& bond, const Contact& beside, const Batch& q, const End<Lan
   h.M = select(lives, load.M, zero);
   h.T = select(lives, load.T, Lanes{});
 
-  const auto contact =
-      contact_step(beside, sides_of_pair(i.R, j.R, k.inv_L), S,
-                   {k.gap, k.du_n, k.du_s, rotated_with_contact(h.f_s, k)});
-  h.f_s = contact.f_s;
-  add_slip(contact.slip_loss, q, p, losses);
-
+  const auto contact = step_contact(beside, q, i, j, k, h.f_s, p, losses);
   const Lanes N = select(lives, load.N, Lanes{});
   return {k.n * (h.intact * N - contact.f_n) + h.V * h.intact + contact.f_s,
           (h.M + k.n * h.T) * h.intact};
