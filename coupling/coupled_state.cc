@@ -4,6 +4,7 @@
 #include "dem/io/state/assembly_state.h"
 #include "dem/io/state/named_numbers.h"
 #include "dem/io/state/state_rows.h"
+#include "dem/io/state/step_numbers.h"
 
 namespace mergel::coupling {
 
@@ -12,17 +13,21 @@ namespace {
 template <class System>
 dem::NumbersOf<System> numbers_of(System& s)
 {
-  return {{"time step [s]", &s.dt},
-          {"previous time step [s]", &s.dt_before},
-          {"time [s]", &s.time}};
+  dem::NumbersOf<System> all{{"time step [s]", &s.dt},
+                             {"previous time step [s]", &s.dt_before},
+                             {"time [s]", &s.time}};
+  dem::append_stable_step(all, s.stable_step);
+  return all;
 }
 
 template <class System>
 dem::CountsOf<System> counts_of(System& s)
 {
-  return {{"steps [-]", &s.n_steps},
-          {"phase of settling", &s.settling.phase, Settling::Phase::done},
-          {"steps in this phase [-]", &s.settling.n}};
+  dem::CountsOf<System> all{{"steps [-]", &s.n_steps},
+                            {"phase of settling", &s.settling.phase, Settling::Phase::done},
+                            {"steps in this phase [-]", &s.settling.n}};
+  dem::append_stable_step_counts(all, s.stable_step);
+  return all;
 }
 
 } // namespace
@@ -56,6 +61,7 @@ CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>
 
   dem::distribute(assembly, comm);
   dem::rebuild_lists(assembly);
+  dt = step_spec.safety * stable_step.limit; // the restart may have another safety
 }
 
 } // namespace mergel::coupling

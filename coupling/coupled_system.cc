@@ -1,14 +1,14 @@
 #include "coupling/coupled_system.h"
 
-#include "coupling/interface_stiffness.h"
 #include "dem/assembly/distribute.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mergel::coupling {
 
 CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>& specs)
-    : safety(spec.safety)
+    : step_spec(spec.step)
 {
   assembly.material = spec.material;
   assembly.motion = spec.motion;
@@ -38,20 +38,42 @@ CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>
       dem::bond_to_wall(assembly.walls[k], assembly.particles, bonding.limit);
   dem::distribute(assembly, comm);
   dem::add_forces(assembly, 0.0); // at dt = 0 histories do not change
-  dt = dt_before = dem::stable_time_step(assembly, safety);
-  lower_time_step(true);
+  dem::scale_masses(assembly, spec.mass_scaling);
+  look_at_time_step();
+  dt_before = dt;
 }
 
-void CoupledSystem::lower_time_step(bool structures_too)
+StructureSystem CoupledSystem::structure_system() const
 {
-  dt = std::min(dt, dem::stable_time_step(assembly, safety));
-  if (!structures_too) return;
+  std::vector<StructureSystem::Part> parts;
   for (const Member& s : structures)
-    if (moves(s))
-      dt =
-          std::min(dt, s.structure->stable_time_step(
-                           interface_stiffness(assembly, wall_of(s), s.exchange.transfer()),
-                           safety));
+    if (moves(s)) parts.push_back({s.structure.get(), &s.exchange.transfer(), s.wall});
+  return StructureSystem(std::move(parts));
+}
+
+double CoupledSystem::largest_damping(const StructureSystem& system) const
+{
+  return std::max(assembly.motion.damping, system.damping());
+}
+
+void CoupledSystem::look_at_time_step()
+{
+  const StructureSystem system = structure_system();
+  dem::find_stable_step(stable_step, assembly, step_spec, dt, largest_damping(system),
+                        &system);
+  dt = step_spec.safety * stable_step.limit;
+  if (!std::isfinite(dt))
+    throw InputError(
+        "Specimen: no particles touch, none are bonded, and no structure has a "
+        "stiffness: there is no stable time step");
+}
+
+void CoupledSystem::check_time_step()
+{
+  const StructureSystem system = structure_system();
+  dem::update_stable_step(stable_step, assembly, step_spec, n_steps, dt,
+                          largest_damping(system), &system);
+  dt = step_spec.safety * stable_step.limit;
 }
 
 std::string CoupledSystem::where() const

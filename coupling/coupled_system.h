@@ -4,6 +4,10 @@
 #include "coupling/energy_balances.h"
 #include "coupling/exchange.h"
 #include "coupling/interface_balance.h"
+#include "coupling/structure_system.h"
+#include "dem/assembly/mass_scaling.h"
+#include "dem/assembly/step.h"
+#include "dem/assembly/timestep.h"
 #include "dem/pairs/strength.h"
 #include "dem/specimen/bonding.h"
 
@@ -23,7 +27,8 @@ struct CoupledSpec {
   dem::PairMaterials material;
   dem::Motion motion;                           ///< of the particles
   double skin = 0.0;                            ///< of the Verlet list at S = 1 [m], > 0
-  double safety = dem::default_safety;          ///< of the time step, in (0, 1]
+  dem::StepSpec step;                           ///< rule and safety of the time step
+  dem::MassScalingSpec mass_scaling;            ///< of the particles; off by default
   SymmetryPlane symmetry = SymmetryPlane::none; ///< of a half model
   dem::StrengthVariability strengths;           ///< drawn again when a state is loaded
 };
@@ -56,9 +61,10 @@ struct CoupledSystem {
   dem::Assembly assembly;
   std::vector<Member> structures;
   bool are_structures_held = false; ///< true: none takes part in the steps
-  double dt = 0.0;                  ///< time step [s]; never grows
-  double dt_before = 0.0;           ///< previous time step [s]
-  double safety = dem::default_safety;
+  dem::StepSpec step_spec;
+  dem::StableStep stable_step;
+  double dt = 0.0;        ///< time step [s]
+  double dt_before = 0.0; ///< previous time step [s]
   std::size_t n_steps = 0;
   double time = 0.0;          ///< since the specimen was placed in its walls [s]
   Settling settling;          ///< advanced by equilibrate()
@@ -83,9 +89,9 @@ struct CoupledSystem {
   template <class MoveOthers>
   void step(MoveOthers&& move_others);
 
-  /// Compute the critical step of the particles again, and of the structures if
-  /// `structures_too`; lower dt where it fell. Collective.
-  void lower_time_step(bool structures_too);
+  /// Compute the stable step from the largest frequency of all that acts now, and take the
+  /// time step from it. To be called where what takes part has changed. Collective.
+  void look_at_time_step();
 
   /// Give slow ranks fewer particles. The results do not depend on it, bit for bit.
   /// Collective.
@@ -106,7 +112,6 @@ struct CoupledSystem {
   bool moves(const Member& s) const { return !are_structures_held && s.structure->moves(); }
   dem::Wall& wall_of(const Member& s) { return assembly.walls[s.wall]; }
 
-  static constexpr std::size_t steps_between_structure_checks = 5000;
   static constexpr std::size_t steps_between_load_checks = 1000;
   static constexpr double imbalance_allowed = 1.05; ///< slowest over fastest rank
 
@@ -117,6 +122,9 @@ private:
   /// Walls without particles. Takes the structures out of `specs`.
   CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>& specs);
 
+  StructureSystem structure_system() const; ///< of the structures that move
+  double largest_damping(const StructureSystem& system) const;
+  void check_time_step();
   std::string where() const; ///< step and time, for messages
 
   double spent_before_ = 0.0; ///< computing time at the last balance_load() [s]
@@ -125,8 +133,7 @@ private:
 template <class MoveOthers>
 void CoupledSystem::step(MoveOthers&& move_others)
 {
-  if (n_steps % dem::steps_between_step_checks == 0)
-    lower_time_step(n_steps % steps_between_structure_checks == 0);
+  if (n_steps % dem::steps_between_step_checks == 0) check_time_step();
   if (n_steps % steps_between_load_checks == 0) balance_load();
 
   const auto move_walls = [&](double h) {

@@ -17,6 +17,14 @@ std::string shown(double ratio)
   return text;
 }
 
+/// Another reason for a failure, where it may be one.
+std::string hint_of(const dem::StepSpec& step)
+{
+  if (step.safety <= 1.0) return "";
+  return "; or the time step, " + dem::shortest(step.safety) +
+         " of the stable one, is too large: lower `Motion/time step safety`";
+}
+
 /// One phase of settling and who hears of it.
 struct Phase {
   const char* name;
@@ -48,7 +56,8 @@ void relax(CoupledSystem& coupled, const Phase& phase)
     if (coupled.assembly.comm.global_sum(coupled.assembly.losses.broken) > 0)
       throw Unstable(
           "a bond broke before equilibrium (" + shown(now) +
-          "): the specimen is too weak for its own weight, or was made under pressure");
+          "): the specimen is too weak for its own weight, or was made under pressure" +
+          hint_of(coupled.step_spec));
     if (now < ratio) {
       if (phase.report.done)
         phase.report.done(shown(now) + ", " + std::to_string(n) + " steps");
@@ -61,7 +70,8 @@ void relax(CoupledSystem& coupled, const Phase& phase)
   throw Unstable(std::string(phase.name) + ": no equilibrium in " +
                  std::to_string(phase.spec.max_steps) + " steps: " + shown(now) +
                  ", required " + dem::shortest(ratio) +
-                 "; raise `Motion/damping` or `Motion/unbalanced-force tolerance`");
+                 "; raise `Motion/damping` or `Motion/unbalanced-force tolerance`" +
+                 hint_of(coupled.step_spec));
 }
 
 /// Displacement of wall nodes, of all walls one after the other.
@@ -104,7 +114,8 @@ void follow_walls(CoupledSystem& coupled, const WallMotion& motion)
   });
   coupled.assembly.list.invalidate();
   dem::add_forces(coupled.assembly, dt);
-  p.for_owned([&](dem::Index i) { p.state[i].v.setZero(); });
+  // Those of other ranks too: ghosts keep what they have until the next step.
+  for (dem::ParticleState& b : p.state) b.v.setZero();
   for (dem::Wall& wall : coupled.assembly.walls)
     for (dem::Vec3& v : wall.v) v.setZero();
 }
@@ -123,10 +134,12 @@ void equilibrate(CoupledSystem& coupled, const EquilibriumSpec& spec,
   Settling& settling = coupled.settling;
   if (settling.phase == Settling::Phase::held) {
     coupled.are_structures_held = true;
+    if (settling.n == 0) coupled.look_at_time_step(); // their own stiffness takes no part
     relax(coupled, {"settling in held walls", spec, report, after_step});
     coupled.are_structures_held = false;
     const WallMotion motion = settle_structures(coupled);
     if (motion.is_any) follow_walls(coupled, motion);
+    coupled.look_at_time_step();
     settling = {Settling::Phase::free, 0};
   }
   if (settling.phase == Settling::Phase::free) {

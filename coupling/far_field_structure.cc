@@ -113,11 +113,15 @@ std::optional<Nodal> FarFieldStructure::solve_static(const Nodal& f)
   return u;
 }
 
-double FarFieldStructure::stable_time_step(std::span<const double> k_wall,
-                                           double safety) const
+void FarFieldStructure::move(std::span<const double> y, Nodal& u) const
 {
-  return safety * far_field_.stable_time_step(k_wall) /
-         std::sqrt(1.0 + far_field_.damping());
+  far_field_.interface_motion(y, u);
+}
+
+void FarFieldStructure::multiply(std::span<const double> y, const Nodal& f,
+                                 std::span<double> to) const
+{
+  far_field_.multiply(y, f, to);
 }
 
 double FarFieldStructure::unbalanced_ratio() const

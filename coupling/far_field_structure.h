@@ -36,7 +36,11 @@ public:
   void step(double dt, const Nodal& f) override;
   /// @throws std::runtime_error when the solver does not converge
   std::optional<Nodal> solve_static(const Nodal& f) override;
-  double stable_time_step(std::span<const double> k_wall, double safety) const override;
+  double damping() const override { return far_field_.damping(); }
+  std::size_t n_amplitudes() const override { return far_field_.n_amplitudes(); }
+  void move(std::span<const double> y, Nodal& u) const override;
+  void multiply(std::span<const double> y, const Nodal& f,
+                std::span<double> to) const override;
   double unbalanced_ratio() const override;
   StructureEnergies energies() const override;
   void save(dem::State& state, const std::string& name) const override;

@@ -4,7 +4,8 @@
 #include "dem/io/state/state_rows.h"
 #include "dem/text.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <cmath>
 #include <limits>
@@ -190,35 +191,51 @@ std::optional<Nodal> RigidPlaten::solve_static(const Nodal&)
   return std::nullopt;
 }
 
-double RigidPlaten::stable_time_step(std::span<const double> k_wall, double safety) const
+std::size_t RigidPlaten::n_amplitudes() const
 {
-  if (k_wall.size() != r_0_.size())
-    throw std::logic_error("stable time step of a platen: one stiffness per node needed");
-  // Free motions: of the three, along the axis and about both axes of tilting, n from the
-  // one numbered `first`.
-  const int first = is_driven_by_force() ? 0 : 1;
-  const int n = (spec_.is_free_to_tilt ? 3 : 1) - first;
-  if (n == 0) return std::numeric_limits<double>::infinity();
+  return (is_driven_by_force() ? 1 : 0) + (spec_.is_free_to_tilt ? 2 : 0);
+}
 
-  // k (x_p - x_w)^2 <= 2 k x_p^2 + 2 k x_w^2: the particle takes the first part, the platen
-  // the second. The motion of a node is J times the free motions.
-  Eigen::Matrix3d K = Eigen::Matrix3d::Zero(), M = Eigen::Matrix3d::Zero();
+RigidPlaten::FreeMotions RigidPlaten::free_motions() const
+{
+  const Eigen::Index first = is_driven_by_force() ? 0 : 1;
+  const auto n = static_cast<Eigen::Index>(n_amplitudes());
   const Eigen::Matrix<double, 3, 2> e = now_.rotation.toRotationMatrix() * in_plane_;
-  for (std::size_t k = 0; k < k_wall.size(); ++k) {
-    const Vec3 r = now_.x_nodes[k] - centre();
+  FreeMotions all;
+  for (const Vec3& x : now_.x_nodes) {
+    const Vec3 r = x - centre();
     Eigen::Matrix3d J;
     J << spec_.mesh.axis, Vec3(e.col(0)).cross(r), Vec3(e.col(1)).cross(r);
-    K += 2.0 * k_wall[k] * J.transpose() * J;
+    all.of_node.push_back(J.middleCols(first, n));
   }
+  Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
   M(0, 0) = spec_.mass;
   M.bottomRightCorner<2, 2>() = inertia_;
-  const double omega2 =
-      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
-          K.block(first, first, n, n), M.block(first, first, n, n), Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .maxCoeff();
-  if (!(omega2 > 0.0)) return std::numeric_limits<double>::infinity();
-  return safety * 2.0 / std::sqrt(omega2) / std::sqrt(1.0 + spec_.damping);
+  if (n == 0) return all;
+  const Eigen::MatrixXd free = M.block(first, first, n, n); // mass > 0: check()
+  all.inverse_root = Eigen::MatrixXd(free.llt().matrixL()).inverse();
+  return all;
+}
+
+void RigidPlaten::move(std::span<const double> y, Nodal& u) const
+{
+  u.assign(r_0_.size(), Vec3::Zero());
+  if (y.empty()) return;
+  const FreeMotions all = free_motions();
+  const Eigen::VectorXd a =
+      all.inverse_root.transpose() *
+      Eigen::Map<const Eigen::VectorXd>(y.data(), static_cast<Eigen::Index>(y.size()));
+  for (std::size_t k = 0; k < u.size(); ++k) u[k] = all.of_node[k] * a;
+}
+
+void RigidPlaten::multiply(std::span<const double> y, const Nodal& f,
+                           std::span<double> to) const
+{
+  if (y.empty()) return;
+  const FreeMotions all = free_motions();
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(y.size()));
+  for (std::size_t k = 0; k < f.size(); ++k) sum += all.of_node[k].transpose() * f[k];
+  Eigen::Map<Eigen::VectorXd>(to.data(), sum.size()) = all.inverse_root * sum;
 }
 
 double RigidPlaten::unbalanced_ratio() const

@@ -77,19 +77,30 @@ public:
   void step(double dt, const Nodal& f) override;
   /// None: a platen alone has no stiffness.
   std::optional<Nodal> solve_static(const Nodal& f) override;
-  double stable_time_step(std::span<const double> k_wall, double safety) const override;
+  double damping() const override { return spec_.damping; }
+  std::size_t n_amplitudes() const override;
+  void move(std::span<const double> y, Nodal& u) const override;
+  void multiply(std::span<const double> y, const Nodal& f,
+                std::span<double> to) const override;
   double unbalanced_ratio() const override;
   StructureEnergies energies() const override;
   void save(dem::State& state, const std::string& name) const override;
   void load(const dem::State& state, const std::string& name) override;
 
 private:
+  /// Up to three: along the axis, about both axes of tilting.
+  struct FreeMotions {
+    std::vector<Eigen::Matrix3Xd> of_node; ///< motion of each node, a column a free motion
+    Eigen::MatrixXd inverse_root;          ///< L^-1 with M = L L^T
+  };
+
   bool is_driven_by_force() const
   {
     return std::holds_alternative<ForceDrive>(spec_.drive);
   }
   dem::Vec3 centre() const { return centre_0_ + now_.travel * spec_.mesh.axis; }
   PlatenLoad sum(const Nodal& f) const;
+  FreeMotions free_motions() const;
   void kick_axis(double dt);
   void kick_tilt(double dt);
   void turn(double dt);

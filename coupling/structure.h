@@ -82,10 +82,18 @@ public:
   /// no such solution; it stays where it is.
   virtual std::optional<Nodal> solve_static(const Nodal& f) = 0;
 
-  /// safety times the critical step under its local damping [s]; infinite if it has none.
-  /// @param k_wall stiffness of the particles' bonds and contacts on each node [N/m]: it
-  ///   adds to the eigenvalue
-  virtual double stable_time_step(std::span<const double> k_wall, double safety) const = 0;
+  /// Local damping [-].
+  virtual double damping() const = 0;
+
+  /// Its linear system M a + K u = f, for the largest frequency of a coupled system. The
+  /// amplitudes y are M^1/2 u of all that is free to move.
+  virtual std::size_t n_amplitudes() const = 0;
+  /// Motion of the nodes under these amplitudes [kg^-1/2]. Resizes its argument.
+  virtual void move(std::span<const double> y, Nodal& u) const = 0;
+  /// M^-1/2 (K M^-1/2 y + J^T f) into `to`: f resists the motion of the nodes, J u = that
+  /// motion.
+  virtual void multiply(std::span<const double> y, const Nodal& f,
+                        std::span<double> to) const = 0;
 
   /// Unbalanced over acting forces at the last kick [-]; 0 if nothing is free to move.
   virtual double unbalanced_ratio() const = 0;

@@ -128,7 +128,9 @@ DamageBond non_softening_bond(bool yields)
 void set_time_step(WorkingAssembly& working)
 {
   add_forces(working.assembly, 0.0);
-  working.dt = working.dt_before = stable_time_step(working.assembly, default_safety);
+  find_stable_step(working.stable_step, working.assembly, StepSpec{}, 0.0,
+                   working.assembly.motion.damping);
+  working.dt = working.dt_before = default_safety * working.stable_step.limit;
 }
 
 /// Uniform velocity: half the skin in `list_life` steps.
@@ -274,8 +276,11 @@ void WorkloadSpec::check() const
 
 void WorkingAssembly::step()
 {
-  if (n_steps % steps_between_step_checks == 0)
-    dt = std::min(dt, stable_time_step(assembly, default_safety));
+  if (n_steps % steps_between_step_checks == 0) {
+    update_stable_step(stable_step, assembly, StepSpec{}, n_steps, dt,
+                       assembly.motion.damping);
+    dt = default_safety * stable_step.limit;
+  }
   advance(assembly, dt_before, dt, [](double) {});
   dt_before = dt;
   ++n_steps;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "dem/assembly/step.h"
+#include "dem/assembly/timestep.h"
 
 #include <cstdint>
 
@@ -39,11 +40,12 @@ inline constexpr double bonds_per_particle = 2.45, contacts_per_particle = 3.4;
 /// An assembly with its time step.
 struct WorkingAssembly {
   dem::Assembly assembly;
-  double dt = 0.0;        ///< time step [s]; never grows
+  dem::StableStep stable_step;
+  double dt = 0.0;        ///< time step [s]
   double dt_before = 0.0; ///< previous time step [s]
   std::size_t n_steps = 0;
 
-  /// One step, as in a run; the stable time step is computed every 100 steps.
+  /// One step, as in a run; the stable time step is checked every 100 steps.
   void step();
 };
 

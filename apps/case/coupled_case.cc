@@ -1,5 +1,6 @@
 #include "apps/case/coupled_case.h"
 
+#include "apps/case/motion_keys.h"
 #include "dem/text.h"
 
 #include <cmath>
@@ -63,6 +64,11 @@ void declare_far_field(CaseFile& file, CoupledCase& c)
       "mm");
 }
 
+MotionKeys motion_keys(CoupledCase& c)
+{
+  return {c.free_rotation, c.step, c.inertia_factor, c.mass_scaling};
+}
+
 void declare_motion(CaseFile& file, CoupledCase& c)
 {
   const auto section = file.section("Motion");
@@ -70,10 +76,7 @@ void declare_motion(CaseFile& file, CoupledCase& c)
                 "Downwards, on particles and far field.");
   file.number("damping", c.damping, from_to(0.0, 1.0).named("alpha"),
               "Local non-viscous damping of particles and far field.");
-  file.number("time step safety", c.safety, above_to(0.0, 1.0),
-              "Time step over the critical time step.");
-  file.flag("free rotation", c.free_rotation,
-            "Let particles without an intact bond rotate; in the paper they do not.");
+  declare(file, motion_keys(c));
   file.former_name("balance", "unbalanced-force tolerance");
   file.number("unbalanced-force tolerance", c.unbalanced_tolerance, inside(0.0, 1.0),
               "Unbalanced-force ratio at which a state counts as equilibrium.");
@@ -129,6 +132,7 @@ void complete(CaseFile& file, CoupledCase& c)
   file.derive("Far field", "interface friction", dem::friction(c.material.contact));
   file.derive("Far field", "collar height", 0.2 * c.diameter);
   f.damping = c.damping;
+  complete(file, motion_keys(c));
   c.interface = wall_contact(c.material.contact, c.interface_modulus, c.interface_friction);
   try {
     f.check();

@@ -4,6 +4,7 @@
 
 #include "apps/case/specimen_keys.h"
 #include "coupling/far_field_structure.h"
+#include "dem/assembly/mass_scaling.h"
 #include "dem/assembly/timestep.h"
 
 #include <optional>
@@ -35,8 +36,10 @@ struct CoupledCase : SpecimenKeys {
   // Motion
   double gravity = dem::standard_gravity; ///< [m/s^2], downwards
   double damping = dem::default_damping;
-  double safety = dem::default_safety; ///< of the time step
   bool free_rotation = false;
+  dem::StepSpec step;
+  double inertia_factor = 1.0;
+  dem::MassScalingSpec mass_scaling;
   double unbalanced_tolerance = 1e-4; ///< unbalanced-force ratio of an equilibrium [-]
 };
 

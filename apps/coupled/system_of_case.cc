@@ -23,9 +23,11 @@ coupling::CoupledSpec coupled_spec(const CoupledCase& c)
 {
   coupling::CoupledSpec spec;
   spec.material = c.material;
-  spec.motion = {dem::Vec3(0.0, 0.0, -c.gravity), c.damping, c.free_rotation};
+  spec.motion = {dem::Vec3(0.0, 0.0, -c.gravity), c.damping, c.free_rotation,
+                 c.inertia_factor};
   spec.skin = dem::skin_under_penetration * c.specimen.sizes.smallest();
-  spec.safety = c.safety;
+  spec.step = c.step;
+  spec.mass_scaling = c.mass_scaling;
   spec.symmetry = c.symmetry == Symmetry::mirror ? coupling::SymmetryPlane::bonded
                                                  : coupling::SymmetryPlane::contact;
   spec.strengths = c.strengths;

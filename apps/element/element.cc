@@ -6,6 +6,7 @@
 #include "apps/run/progress.h"
 #include "apps/run/protocol.h"
 #include "apps/run/ranks.h"
+#include "apps/run/step_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +54,12 @@ private:
   }
   dem::Outcome load_stage(const std::string& name, bool is_under_way,
                           const std::function<void()>& after_step);
-  void add(const dem::ElementRecord& r);
+  void report_step() const
+  {
+    const dem::ElementState& s = test_->state();
+    std::cout << report(case_.step, s.stable_step, s.dt, s.assembly.particles);
+  }
+  std::string record(); ///< returns lines for the user; mostly none
 
   ElementCase case_;
   std::optional<dem::ElementTest> test_;
@@ -144,6 +150,7 @@ void ElementJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
   const dem::PairMaterials materials = resolved_materials(case_, specimen);
   std::cout << report(case_, specimen, materials) << '\n';
   test_.emplace(case_, std::move(specimen), materials, comm);
+  report_step();
   folder.prepare();
   on_first_rank([&] { history_.emplace(folder.path() / "history.csv"); });
   pictures_.emplace(folder.path(), case_, *test_);
@@ -162,7 +169,7 @@ void ElementJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
       goes_on(records_.back(), case_))
     outcomes_.back() = dem::Outcome::unstable; // under way again
   test_.emplace(case_, load_element(state, case_), comm);
-  if (find_change(restart, "Motion", "time step safety")) test_->lower_time_step();
+  report_step();
   folder.prepare();
   on_first_rank([&] {
     history_.emplace(folder.path() / "history.csv", restart.folder / "history.csv", state);
@@ -170,10 +177,13 @@ void ElementJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
   pictures_.emplace(folder.path(), case_, *test_, restart.folder, state);
 }
 
-void ElementJob::add(const dem::ElementRecord& r)
+std::string ElementJob::record()
 {
-  records_.push_back(r);
-  on_first_rank([&] { history_->add(r); });
+  const bool was_raised = test_->state().alarm.is_raised();
+  records_.push_back(test_->record());
+  on_first_rank([&] { history_->add(records_.back()); });
+  const dem::EnergyAlarm& alarm = test_->state().alarm;
+  return alarm.is_raised() && !was_raised ? alarm_text(alarm) : "";
 }
 
 std::string words(const dem::ElementRecord& r)
@@ -190,15 +200,17 @@ std::string words(const dem::ElementRecord& r)
 dem::Outcome ElementJob::load_stage(const std::string& name, bool is_under_way,
                                     const std::function<void()>& after_step)
 {
-  if (!is_under_way) add(test_->record());
+  std::string alarm;
+  if (!is_under_way) alarm = record();
   Progress progress("stage " + std::to_string(test_->state().stage + 1) + ", " + name);
+  progress.say(alarm);
   for (;;) {
     const bool approached = test_->is_approaching();
     test_->step();
     const dem::Outcome outcome = test_->outcome();
     const bool begins = approached && !test_->is_approaching();
     if (outcome != dem::Outcome::goes_on || test_->record_is_due() || begins)
-      add(test_->record());
+      progress.say(record());
     if (pictures_->update(outcome != dem::Outcome::goes_on)) require_files();
     if (outcome != dem::Outcome::goes_on) {
       progress.done(words(records_.back()));
@@ -252,6 +264,9 @@ ElementSummary summary_of(const ElementCase& c, const dem::ElementState& state,
   s.n_steps = state.n_steps;
   s.n_limited = state.servo.n_limited;
   s.dt = state.dt;
+  s.stable_step = state.stable_step;
+  s.alarm = state.alarm;
+  s.particles = &state.assembly.particles;
   s.seconds = seconds;
   return s;
 }

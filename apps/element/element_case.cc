@@ -1,5 +1,6 @@
 #include "apps/element/element_case.h"
 
+#include "apps/case/motion_keys.h"
 #include "apps/case/units.h"
 #include "apps/case/words.h"
 #include "apps/specimen/specimen.h"
@@ -64,15 +65,17 @@ void declare_loading(CaseFile& file, ElementCase& c)
       "this fraction of the way made.");
 }
 
+MotionKeys motion_keys(ElementCase& c)
+{
+  return {c.free_rotation, c.step, c.inertia_factor, c.mass_scaling};
+}
+
 void declare_motion(CaseFile& file, ElementCase& c)
 {
   const auto section = file.section("Motion");
   file.number("damping", c.damping, from_to(0.0, 1.0).named("alpha"),
               "Local non-viscous damping of the particles' motion relative to the cell.");
-  file.number("time step safety", c.safety, above_to(0.0, 1.0),
-              "Time step over the critical time step.");
-  file.flag("free rotation", c.free_rotation,
-            "Let particles without an intact bond rotate; in the paper they do not.");
+  declare(file, motion_keys(c));
 }
 
 void declare_analysis(CaseFile& file, ElementCase& c)
@@ -187,6 +190,7 @@ void complete(CaseFile& file, ElementCase& c)
   if (c.specimen.shape != SpecimenKeys::Shape::periodic_box)
     file.refuse("Specimen", "shape", "an element test needs a `periodic box`");
   c.specimen.specimen.free_rotation = c.free_rotation;
+  complete(file, motion_keys(c));
   complete(file, c.specimen, c.contact.chosen());
   check_size(file, c);
   if (c.secant_to <= c.secant_from)

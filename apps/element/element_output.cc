@@ -2,6 +2,7 @@
 
 #include "apps/run/progress.h"
 #include "apps/run/restart.h"
+#include "apps/run/step_report.h"
 #include "dem/text.h"
 
 #include <algorithm>
@@ -65,6 +66,8 @@ const std::vector<std::string> columns{
     "rotation-constraint loss [J]",
     "boundary work [J]",
     "energy error [-]",
+    "time step [s]",
+    "stable step [s]",
     "inertial number [-]",
     "unbalanced-force ratio [-]",
 };
@@ -166,6 +169,8 @@ void ElementHistory::add(const dem::ElementRecord& r)
                 e.rotation_constraint,
                 e.cell_work,
                 r.energy_error,
+                r.time_step,
+                r.stable_step,
                 r.inertial_number,
                 r.unbalanced});
 }
@@ -429,12 +434,14 @@ void add_figures(Summary& to, const ElementCase& c, const ElementSummary& s)
     to.count(std::string("broken in ") + modes[k] + " [-]", s.last.broken_by[k]);
   to.number("boundary work [J]", s.last.balance.cell_work);
   to.number("largest energy error [-]", s.worst_energy_error);
+  add_alarm(to, s.alarm);
   to.number("largest strain rate [1/s]", s.largest_rate);
   to.number("largest inertial number [-]", s.largest_inertial_number);
   to.count("rates cut at their limit [-]", s.n_limited);
   to.count("particles [-]", s.n_particles);
   to.count("steps [-]", s.n_steps);
-  to.number("time step [s]", s.dt);
+  add_step(to, s.stable_step, s.dt);
+  add_mass_scaling(to, *s.particles);
   to.number("wall-clock time [s]", s.seconds);
 }
 
@@ -471,7 +478,7 @@ void summarise(Summary& summary, const ElementCase& c, const ElementSummary& s)
       << " of the work; strain rate up to " << s.largest_rate
       << " 1/s, inertial number up to " << s.largest_inertial_number;
   if (s.n_limited > 0) out << "; " << s.n_limited << " rates were limited by the servo";
-  out << "\n"
+  out << "\ntime step " << s.dt << " s, ruled by " << dem::what_rules(s.stable_step) << '\n'
       << s.n_particles << " particles, " << s.n_steps << " steps, "
       << 1e9 * s.seconds / static_cast<double>(s.n_steps * s.n_particles)
       << " ns per particle and step, whole run " << duration_text(s.seconds);

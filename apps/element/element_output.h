@@ -68,6 +68,9 @@ struct ElementSummary {
   dem::ElementRecord last;
   double worst_energy_error = 0.0, largest_inertial_number = 0.0, largest_rate = 0.0;
   std::size_t n_particles = 0, n_steps = 0, n_limited = 0;
+  dem::StableStep stable_step;
+  dem::EnergyAlarm alarm;
+  const dem::Particles* particles = nullptr; ///< borrowed
   double dt = 0.0, seconds = 0.0;
 };
 /// Add the results to summary.json, and a line for each stage to the closing text.

@@ -3,6 +3,7 @@
 #include "dem/io/state/assembly_state.h"
 #include "dem/io/state/energy_numbers.h"
 #include "dem/io/state/named_rows.h"
+#include "dem/io/state/step_numbers.h"
 
 namespace mergel::apps {
 
@@ -76,6 +77,8 @@ dem::NumbersOf<Self> numbers_of(Self& s)
   append_servo(all, s.servo);
   append_stage(all, s.active);
   dem::append_energies(all, "start: ", s.start);
+  dem::append_stable_step(all, s.stable_step);
+  dem::append_alarm(all, s.alarm);
   return all;
 }
 
@@ -99,6 +102,7 @@ dem::CountsOf<Self> counts_of(Self& s)
   for (std::size_t a = 0; a < 3; ++a)
     all.push_back({std::string("stage: rule of axis ") + axis_names[a], &c.rules[a].kind,
                    dem::AxisRule::Kind::stress_controlled});
+  dem::append_stable_step_counts(all, s.stable_step);
   return all;
 }
 
@@ -108,6 +112,8 @@ dem::NumbersOf<Self> numbers_of_record(Self& r)
   auto& a = r.averages;
   dem::NumbersOf<Self> all{{"time [s]", &r.time},
                            {"controlled strain [-]", &r.controlled_strain},
+                           {"time step [s]", &r.time_step},
+                           {"stable step [s]", &r.stable_step},
                            {"energy error [-]", &r.energy_error},
                            {"inertial number [-]", &r.inertial_number},
                            {"unbalanced-force ratio [-]", &r.unbalanced},

@@ -2,6 +2,7 @@
 
 #include "apps/run/progress.h"
 #include "apps/run/ranks.h"
+#include "apps/run/step_report.h"
 #include "dem/assembly/distribute.h"
 #include "dem/text.h"
 
@@ -56,6 +57,7 @@ void Installation::begin()
   coupled_.assembly.rigid_walls.push_back(make_pile(case_));
   coupled_.assembly.list.invalidate();
   dem::add_forces(coupled_.assembly, 0.0);
+  coupled_.look_at_time_step();
   count_bonds();
   frame();
   n_frames_ = 1;
@@ -90,7 +92,7 @@ void Installation::run(const std::function<void()>& after_step)
 
     const bool is_over = travelled() >= rate_.travel();
     if (travelled() >= next_record_ || is_over) {
-      record();
+      progress.say(record());
       next_record_ += case_.record_every;
     }
     if (travelled() >= next_frame() || is_over) {
@@ -155,11 +157,13 @@ PileRecord Installation::new_record(const coupling::EnergyBalances& energy_balan
                        std::abs(energy_balances.assembly.gravity - start_.assembly.gravity);
   const double error = coupling::unexplained(energy_balances, start_);
   r.energy_error = input > 0.0 ? error / input : 0.0;
+  r.time_step = coupled_.dt;
+  r.stable_step = coupled_.stable_step.limit;
   force_ = {};
   return r;
 }
 
-void Installation::record()
+std::string Installation::record()
 {
   const PileRecord r = new_record(coupled_.energy_balances());
   last_ = r;
@@ -171,11 +175,15 @@ void Installation::record()
   worst_interface_.force = std::max(worst_interface_.force, r.interface.force);
   worst_interface_.moment = std::max(worst_interface_.moment, r.interface.moment);
   worst_interface_.power = std::max(worst_interface_.power, r.interface.power);
+  const bool is_alarmed =
+      energy_alarm_.add(r.energy_error, r.time, std::abs(r.balance.rigid_wall_work),
+                        start_.assembly.stored());
   if (!(std::abs(r.energy_error) <= 0.01))
     throw Unstable("the energy error is " + dem::shortest(r.energy_error) +
                    " of the input (at most 0.01) at step " +
                    std::to_string(coupled_.n_steps) + ", t = " + dem::shortest(time_) +
                    " s: lower `Motion/time step safety`");
+  return is_alarmed ? alarm_text(energy_alarm_) : "";
 }
 
 } // namespace mergel::apps

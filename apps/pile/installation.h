@@ -79,6 +79,7 @@ public:
   const PileRecord& last() const { return last_; }
   double peak() const { return q_peak_; }                           ///< of q_c [Pa]
   double worst_energy_error() const { return worst_energy_error_; } ///< [-]
+  const dem::EnergyAlarm& energy_alarm() const { return energy_alarm_; }
   const coupling::InterfaceBalance& worst_interface() const { return worst_interface_; }
   const BreakageCount& breakage() const { return breakage_; }
   std::size_t n_bonds() const { return n_bonds_; }     ///< of all kinds, at the start
@@ -93,7 +94,8 @@ private:
   }
   void count_bonds();
   void frame();
-  void record();
+  /// Returns lines for the user; mostly none.
+  std::string record();
   PileRecord new_record(const coupling::EnergyBalances& energy_balances);
   std::string now() const;
 
@@ -110,6 +112,7 @@ private:
   std::optional<PileOutput>& output_;
   PenetrationRate rate_;
   coupling::EnergyBalances start_;
+  dem::EnergyAlarm energy_alarm_;
   BreakageCount breakage_;
   MeanForce force_;
   PileRecord last_;

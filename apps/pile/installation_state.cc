@@ -55,12 +55,15 @@ dem::NumbersOf<Self> Installation::numbers_of(Self& self)
                            {"record: q_c [Pa]", &r.q_c},
                            {"record: unbalanced-force ratio [-]", &r.unbalanced},
                            {"record: kinetic energy [J]", &r.kinetic},
-                           {"record: energy error [-]", &r.energy_error}};
+                           {"record: energy error [-]", &r.energy_error},
+                           {"record: time step [s]", &r.time_step},
+                           {"record: stable step [s]", &r.stable_step}};
   append(all, "largest ", self.worst_interface_);
   append(all, "record: ", r.interface);
   dem::append_energies(all, "record: ", r.balance);
   dem::append_energies(all, "start: ", self.start_.assembly);
   append_structures(all, "start, structures: ", self.start_.structures);
+  dem::append_alarm(all, self.energy_alarm_);
   return all;
 }
 

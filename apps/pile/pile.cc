@@ -3,6 +3,7 @@
 #include "apps/pile/pile_summary.h"
 #include "apps/run/protocol.h"
 #include "apps/run/ranks.h"
+#include "apps/run/step_report.h"
 #include "apps/specimen/specimen.h"
 
 #include <algorithm>
@@ -48,6 +49,11 @@ public:
   void summarise(Summary& summary, const Work& work) const override;
 
 private:
+  void report_step() const
+  {
+    std::cout << report(case_.assembly.step, coupled_->stable_step, coupled_->dt,
+                        coupled_->assembly.particles);
+  }
   const PileOutput* output() const { return output_ ? &*output_ : nullptr; }
 
   PileCase case_;
@@ -106,6 +112,7 @@ void PileJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
   coupled_.emplace(coupled_spec(case_.assembly),
                    structures(case_.assembly, std::move(far_field)),
                    sample.packing.particles, sample.bonding, comm);
+  report_step();
   installation_.emplace(case_, *coupled_, output_);
   folder.prepare();
   on_first_rank([&] {
@@ -126,7 +133,7 @@ void PileJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
   coupled_.emplace(coupled_spec(case_.assembly),
                    structures(case_.assembly, std::move(far_field)), state,
                    std::move(piles), comm);
-  if (find_change(restart, "Motion", "time step safety")) coupled_->lower_time_step(true);
+  report_step();
   installation_.emplace(case_, *coupled_, output_);
   if (is_penetrating_) {
     installation_->load(state);

@@ -26,6 +26,8 @@ const std::vector<std::string> columns{
     "interface moment error [-]",
     "interface power error [-]",
     "energy error [-]",
+    "time step [s]",
+    "stable step [s]",
     "pile work of the half model [J]",
     "elastic energy of the half model [J]",
     "bond plasticity and damage of the half model [J]",
@@ -77,11 +79,27 @@ std::string PileOutput::check(const std::filesystem::path& folder, const dem::St
 void PileOutput::record(const PileRecord& r)
 {
   const dem::EnergyBalance& e = r.balance;
-  history_.add({r.time, r.depth, r.depth / diameter_, r.tip_depth, r.F_tip, r.F_shaft,
-                r.q_c, static_cast<double>(r.broken), r.unbalanced, r.kinetic,
-                r.interface.force, r.interface.moment, r.interface.power, r.energy_error,
-                e.rigid_wall_work, e.bonds + e.contacts + e.walls + e.mirror,
-                e.plastic + e.breakage_release, e.slip, e.damping});
+  history_.add({r.time,
+                r.depth,
+                r.depth / diameter_,
+                r.tip_depth,
+                r.F_tip,
+                r.F_shaft,
+                r.q_c,
+                static_cast<double>(r.broken),
+                r.unbalanced,
+                r.kinetic,
+                r.interface.force,
+                r.interface.moment,
+                r.interface.power,
+                r.energy_error,
+                r.time_step,
+                r.stable_step,
+                e.rigid_wall_work,
+                e.bonds + e.contacts + e.walls + e.mirror,
+                e.plastic + e.breakage_release,
+                e.slip,
+                e.damping});
 }
 
 void PileOutput::frame(double time, const dem::Assembly& assembly,

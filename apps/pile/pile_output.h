@@ -21,7 +21,8 @@ struct PileRecord {
   double unbalanced = 0.0; ///< [-]
   double kinetic = 0.0;    ///< of the particles, half model [J]
   coupling::InterfaceBalance interface;
-  double energy_error = 0.0; ///< unexplained energy over the input [-]
+  double energy_error = 0.0;                 ///< unexplained energy over the input [-]
+  double time_step = 0.0, stable_step = 0.0; ///< [s]
   /// Of the half model; pile work, slip, damping and bond losses since the pile began to
   /// move.
   dem::EnergyBalance balance;

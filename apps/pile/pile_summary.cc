@@ -1,6 +1,7 @@
 #include "apps/pile/pile_summary.h"
 
 #include "apps/run/progress.h"
+#include "apps/run/step_report.h"
 
 #include <sstream>
 
@@ -68,13 +69,15 @@ void add_figures(Summary& s, const Installation& run,
   s.count("broken more than D_p above the shoulder [-]", broken.above);
   s.count("particles above the collar [-]", n_debris);
   s.number("largest energy error [-]", run.worst_energy_error());
+  add_alarm(s, run.energy_alarm());
   s.number("largest interface force error [-]", run.worst_interface().force);
   s.number("largest interface moment error [-]", run.worst_interface().moment);
   s.number("largest interface power error [-]", run.worst_interface().power);
   s.count("particles [-]", coupled.assembly.particles.size());
   s.count("far-field cells [-]", far_field_of(coupled).n_cells());
   s.count("steps [-]", coupled.n_steps);
-  s.number("time step [s]", coupled.dt);
+  add_step(s, coupled.stable_step, coupled.dt);
+  add_mass_scaling(s, coupled.assembly.particles);
   s.number("wall-clock time [s]", seconds);
 }
 
@@ -107,6 +110,8 @@ void summarise(Summary& summary, const PileCase& c, const Installation& run,
       << " % of the input; largest interface errors " << run.worst_interface().force
       << " (force), " << run.worst_interface().moment << " (moment), "
       << run.worst_interface().power << " (power)\n"
+      << "time step " << coupled.dt << " s, ruled by "
+      << dem::what_rules(coupled.stable_step) << '\n'
       << time_by_parts(coupled, work) << "whole run " << duration_text(work.seconds);
 }
 

@@ -93,6 +93,14 @@ void Progress::update(double fraction, const std::string& detail)
   update(fraction, [&] { return detail; });
 }
 
+void Progress::say(const std::string& lines)
+{
+  if (lines.empty()) return;
+  if (line_length_ > 0) *output_.out << '\r' << std::string(line_length_, ' ') << '\r';
+  *output_.out << lines << std::flush;
+  line_length_ = 0;
+}
+
 void Progress::done(const std::string& detail)
 {
   const std::string line = phase_ + "  done  " + (detail.empty() ? "" : detail + "  ") +

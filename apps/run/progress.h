@@ -44,6 +44,9 @@ public:
   void update(double fraction, const std::function<std::string()>& detail);
   void update(double fraction, const std::string& detail = "");
 
+  /// Print lines of another kind, each ended by a line break, above the progress.
+  void say(const std::string& lines);
+
   /// Report the end of the phase: "penetration  done  <detail>  in 3 min
   /// 2 s". Call it once.
   void done(const std::string& detail = "");

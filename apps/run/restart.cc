@@ -160,12 +160,6 @@ void check_case(const CaseFile& file, Restart& restart,
                        shown(c.was) + ", the case asks for " + shown(c.is) +
                        ". Restore it, or begin a new run; a restart may change only " +
                        joined(free, ", ") + ".");
-    // A plain number in (0, 1], as the cases read it.
-    if (key == "Motion/time step safety" && std::stod(c.is) > std::stod(c.was))
-      file.refuse(c.section, c.key,
-                  "was " + c.was +
-                      ", and a restart can only lower it: the time step of a "
-                      "run never grows");
   }
 }
 

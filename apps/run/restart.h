@@ -50,8 +50,7 @@ void read_case(CaseFile& file, const JobOptions& options,
 
 /// Compare the case with that of the checkpoint, for restart.changed.
 /// @param free the keys that may change, "Section/key"
-/// @throws InputError naming another key that has changed: "was X, the case asks for Y";
-///   when `Motion/time step safety` was raised: the time step of a run never grows
+/// @throws InputError naming another key that has changed: "was X, the case asks for Y"
 void check_case(const CaseFile& file, Restart& restart,
                 const std::vector<std::string>& free);
 

@@ -46,8 +46,8 @@ struct Assembly {
 
 /// Show each wall to `visit(wall)`: mirrors, triangulated walls, rigid walls, in the order
 /// in which their forces are added. What a wall of any kind can do is a function of the
-/// same name beside each kind: rebuild_wall(), add_wall_forces(), add_wall_stiffness(),
-/// travel(), power(), histories(), visit_sums(), save_wall() and load_wall().
+/// same name beside each kind: rebuild_wall(), add_wall_forces(), travel(), power(),
+/// histories(), visit_sums(), save_wall() and load_wall().
 template <class AnyAssembly, class Visit>
 void for_each_wall(AnyAssembly& assembly, Visit&& visit)
 {

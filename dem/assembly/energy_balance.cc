@@ -1,5 +1,7 @@
 #include "dem/assembly/energy_balance.h"
 
+#include <cmath>
+
 namespace mergel::dem {
 
 EnergyBalance energy_balance(const Assembly& assembly, double dt)
@@ -8,7 +10,7 @@ EnergyBalance energy_balance(const Assembly& assembly, double dt)
   Particles now = assembly.particles;
   KickWork work = assembly.work;
   kick(now, assembly.motion, 0.5 * dt, work);
-  EnergySum kinetic = kinetic_energy_sum(now), walls, mirror;
+  EnergySum kinetic = kinetic_energy_sum(now, assembly.motion), walls, mirror;
   PairEnergy pairs = pair_energy(assembly.material, assembly.cell, assembly.particles,
                                  assembly.bonds, assembly.contacts);
   for (const Mirror& m : assembly.mirrors) mirror += m.energy;
@@ -40,6 +42,21 @@ EnergyBalance energy_balance(const Assembly& assembly, double dt)
   e.rotation_constraint = work.rotation_constraint.value();
   e.damping = work.damping.value();
   return e;
+}
+
+bool EnergyAlarm::add(double error, double time, double input, double stored_at_start)
+{
+  if (!(input > 10.0 * stored_at_start)) return false;
+  const double size = std::abs(error);
+  constexpr double stops = 1e-2; // beyond it the run stops with a message of its own
+  if (!(size <= stops)) return false;
+  const bool is_large = size > large;
+  const bool rises = before > 0.0 && size > noise && size > rise * before;
+  before = size;
+  if (is_raised() || !(is_large || rises)) return false;
+  first_error = size;
+  first_time = time;
+  return true;
 }
 
 double unexplained(const EnergyBalance& now, const EnergyBalance& start)

@@ -28,6 +28,25 @@ struct EnergyBalance {
 /// @param dt present step [s]
 EnergyBalance energy_balance(const Assembly& assembly, double dt);
 
+/// Watches the energy error of a run from record to record. Below the stable step it is some
+/// 1e-6 in an element test and up to 1e-4 in a pile, whose contacts close at speed; beyond
+/// it at once 5e-4 and more, before anything else shows (dem/README.md, Time step).
+struct EnergyAlarm {
+  static constexpr double large = 3e-4; ///< error that raises the alarm [-]
+  static constexpr double rise = 10.0;  ///< from one record to the next, the same [-]
+  static constexpr double noise = 1e-5; ///< below it a rise does not count [-]
+
+  double before = 0.0;      ///< error of the last record [-]
+  double first_error = 0.0; ///< that raised the alarm [-]; 0: none so far
+  double first_time = 0.0;  ///< of that record [s]
+
+  bool is_raised() const { return first_error != 0.0; }
+  /// Whether this record raises the alarm; the first time only. @param error signed [-]
+  /// @param input since the start, and what was stored then: the alarm waits until the
+  ///   input is ten times that, for a share of next to nothing says nothing [J]
+  bool add(double error, double time, double input, double stored_at_start);
+};
+
 /// Error of the energy balance since `start` [J]: growth of the stored energy - input +
 /// loss.
 double unexplained(const EnergyBalance& now, const EnergyBalance& start);

@@ -65,6 +65,21 @@ void rebuild_lists(Assembly& assembly)
   choose_ghosts(assembly);
 }
 
+void complete_lists(Assembly& assembly, double beyond)
+{
+  assembly.comm.agree_on(assembly.fault); // one of the last step may not be reported yet
+  const double largest = assembly.comm.global_max(assembly.list.travel(assembly.particles));
+  bool is_complete = assembly.list.is_complete_to(beyond, largest);
+  // Of the half of the skin that belongs to walls they may use the same share.
+  const double share = 1.0 - beyond / assembly.list.skin();
+  for_each_wall(assembly, [&](const auto& w) {
+    is_complete &= travel(w) <= share * assembly.list.wall_allowance();
+  });
+  if (is_complete) return;
+  rebuild_lists(assembly);
+  assembly.comm.agree_on(assembly.fault);
+}
+
 namespace {
 
 /// Forces on owned particles, and their reactions on walls.
@@ -109,21 +124,35 @@ void add_forces(Assembly& assembly, double dt)
   lap(assembly.times.exchange);
 }
 
-double stable_time_step(const Assembly& assembly, double safety)
+namespace {
+
+/// Sum of the magnitudes of the pair forces, each counted for both particles [N]. Pairs
+/// whose first particle is owned.
+ForceSum sum_of_pair_forces(const Assembly& assembly)
 {
   const Particles& p = assembly.particles;
-  StiffnessSums s = stiffness_sums(assembly.material, assembly.cell, p, assembly.bonds,
-                                   assembly.contacts);
-  for_each_wall(assembly,
-                [&](const auto& w) { add_wall_stiffness(s, w, assembly.material, p); });
-  return assembly.comm.global_min(time_step(s, p, safety, assembly.motion));
+  const PairMaterials& material = assembly.material;
+  ForceSum sum;
+  const auto contact_force = [&](const Pair& q) {
+    return read_contact(q, Vec3::Zero(), p, assembly.cell, material.contact).f_n;
+  };
+  const Bonds& bonds = assembly.bonds;
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    if (!p.owns(bonds.pairs[b].i)) continue;
+    const BondReading r = read_bond(bonds, b, p, assembly.cell, material.bond);
+    sum.add(2.0 * (std::hypot(r.N, r.V.norm()) + contact_force(bonds.pairs[b])));
+  }
+  for (const Pair& q : assembly.contacts.pairs)
+    if (p.owns(q.i)) sum.add(2.0 * contact_force(q));
+  return sum;
 }
+
+} // namespace
 
 double unbalanced_ratio(const Assembly& assembly)
 {
   ForceSum resultants = sum_of_resultants(assembly.particles, assembly.motion);
-  ForceSum forces = sum_of_pair_forces(assembly.particles, assembly.material, assembly.cell,
-                                       assembly.bonds, assembly.contacts);
+  ForceSum forces = sum_of_pair_forces(assembly);
   ExactReduction sums;
   sums.add(resultants);
   sums.add(forces);

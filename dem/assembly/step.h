@@ -2,7 +2,6 @@
 #pragma once
 
 #include "dem/assembly/assembly.h"
-#include "dem/assembly/timestep.h"
 
 #include <cmath>
 #include <limits>
@@ -19,6 +18,11 @@ void add_forces(Assembly& assembly, double dt);
 /// Rebuild all lists for the present positions, stale or not. Changes no force.
 void rebuild_lists(Assembly& assembly);
 
+/// Rebuild the lists unless they have all pairs and all contacts with walls whose gap is
+/// below (g_a + beyond) S. Changes no force. Collective.
+/// @param beyond at S = 1, below the skin [m]
+void complete_lists(Assembly& assembly, double beyond);
+
 /// One step: kick, drift, move the walls by `move_walls(dt)`, strain a strain-controlled
 /// cell, forces (dem/README.md, Motion).
 ///
@@ -29,9 +33,6 @@ void rebuild_lists(Assembly& assembly);
 ///   and as add_forces()
 template <class MoveWalls>
 void advance(Assembly& assembly, double dt_before, double dt, MoveWalls&& move_walls);
-
-/// Stable step of the assembly in its present state, walls included [s].
-double stable_time_step(const Assembly& assembly, double safety);
 
 /// Unbalanced-force ratio of the assembly [-].
 double unbalanced_ratio(const Assembly& assembly);

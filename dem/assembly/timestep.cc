@@ -1,137 +1,132 @@
 #include "dem/assembly/timestep.h"
 
+#include "dem/assembly/step.h"
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace mergel::dem {
 
 namespace {
 
-/// A twisting stiffness k_s R_b^2/2 is left out: it is below k_s arm^2 about another axis.
-void add_spring(StiffnessSums& s, Index i, double k_n, double k_s, double arm, double k_b)
+/// Steps after which the frequency may be computed again because another particle has become
+/// the stiffest one.
+constexpr std::size_t steps_between_early_looks = 1000;
+/// Growth of the stiffness at moving walls after which the frequency is computed again.
+constexpr double noticeable_growth = 1.1;
+
+bool has_motion(const WallSystem* system)
 {
-  s.k[i] += k_n;
-  s.k_rot[i] += 2.0 * (k_s * arm * arm + k_b);
+  return system && system->size() > 0;
 }
 
-/// Add the stiffness of bond and contact of one pair to both particles.
-void add_pair(StiffnessSums& s, const PairMaterials& material, const PeriodicCell& cell,
-              const Particles& p, const Pair& q, bool bonded)
+/// The springs that act until the next check.
+Springs present_springs(Assembly& assembly, double dt, const WallSystem* system)
 {
-  const ParticleState &i = p.state[q.i], &j = p.state[q.j];
-  const double L = i.R + j.R, r = std::min(i.R, j.R);
-  const double gap = (j.x + cell.offset(q.shift) - i.x).norm() - L;
-  double k_n = 0.0, k_s = 0.0, k_b = 0.0;
-  if (bonded) {
-    const auto b = bond_shape(section(material.bond), r, 1.0 / L);
-    k_n += b.k_n;
-    k_s += b.k_s;
-    k_b += b.k_b;
-  }
-  const double g_a = activation_gap(material.contact) * 0.5 * (i.S + j.S);
-  if (gap < g_a) {
-    const auto c =
-        contact_stiffness(material.contact, sides_of_pair(i.R, j.R, 1.0 / L), g_a - gap);
-    k_n += c.k_n;
-    k_s += c.k_s;
-  }
-  if (k_n == 0.0) return;
-  add_spring(s, q.i, k_n, k_s, i.R + 0.5 * gap, k_b);
-  add_spring(s, q.j, k_n, k_s, j.R + 0.5 * gap, k_b);
-}
-
-} // namespace
-
-StiffnessSums stiffness_sums(const PairMaterials& material, const PeriodicCell& cell,
-                             const Particles& p, const Bonds& bonds,
-                             const Contacts& contacts)
-{
-  StiffnessSums s{std::vector<double>(p.size()), std::vector<double>(p.size())};
-  for (std::size_t b = 0; b < bonds.size(); ++b)
-    add_pair(s, material, cell, p, bonds.pairs[b], bonds.intact(b) > 0.0);
-  for (const Pair& q : contacts.pairs) add_pair(s, material, cell, p, q, false);
-  return s;
-}
-
-namespace {
-
-void add_contacts(StiffnessSums& s, const ContactLaw& law,
-                  const std::vector<WallContact>& contacts, const Particles& p)
-{
-  for (const WallContact& c : contacts) {
-    if (c.energy == 0.0) continue;
-    const double R = p.state[c.particle].R;
-    const auto k = contact_stiffness(law, sides_at_wall(R), c.overlap);
-    add_spring(s, c.particle, k.k_n, k.k_s, R, 0.0);
-  }
-}
-
-} // namespace
-
-void add_wall_stiffness(StiffnessSums& s, const Wall& wall, const PairMaterials& material,
-                        const Particles& p)
-{
-  add_contacts(s, wall.material, wall.contacts, p);
-  for (const WallBond& b : wall.bonds) {
-    if (b.state.intact == 0.0) continue;
-    const double R = p.state[b.particle].R;
-    const auto k = bond_shape(section(material.bond), R, 1.0 / R);
-    add_spring(s, b.particle, k.k_n, k.k_s, R + std::max(0.0, b.gap_0), 0.0);
-  }
-}
-
-void add_wall_stiffness(StiffnessSums& s, const RigidWall& wall, const PairMaterials&,
-                        const Particles& p)
-{
-  add_contacts(s, wall.material, wall.contacts, p);
-}
-
-void add_wall_stiffness(StiffnessSums& s, const Mirror& mirror,
-                        const PairMaterials& material, const Particles& p)
-{
-  for (const MirrorPair& m : mirror.pairs) {
-    const ParticleState& b = p.state[m.particle];
-    const double gap = 2.0 * (b.x.y() - b.R);
-    // A particle and its image are a pair of equal masses.
-    if (m.bond.intact > 0.0)
-      s.k[m.particle] += bond_shape(section(material.bond), b.R, 0.5 / b.R).k_n;
-    const double overlap = activation_gap(material.contact) * b.S - gap;
-    if (overlap > 0.0)
-      s.k[m.particle] +=
-          contact_stiffness(material.contact, sides_at_mirror(b.R), overlap).k_n;
-  }
-}
-
-double time_step(const StiffnessSums& s, const Particles& p, double safety,
-                 const Motion& motion)
-{
-  double dt2 = std::numeric_limits<double>::infinity();
-  p.for_owned([&](Index i) {
-    if (s.k[i] > 0.0) dt2 = std::min(dt2, 2.0 * p.state[i].m / s.k[i]);
-    if (s.k_rot[i] > 0.0 && (p.n_bonds[i] > 0 || motion.free_rotation))
-      dt2 = std::min(dt2, 2.0 * p.state[i].inertia() / s.k_rot[i]);
+  complete_lists(assembly, open_gap_counted(assembly));
+  Springs springs;
+  assembly.fault.run([&] {
+    const double horizon = dt * static_cast<double>(steps_between_step_checks);
+    springs = linear_springs(assembly, {horizon, has_motion(system)});
   });
-  return safety * std::sqrt(dt2 / (1.0 + motion.damping));
+  assembly.comm.agree_on(assembly.fault);
+  return springs;
 }
 
-ForceSum sum_of_pair_forces(const Particles& p, const PairMaterials& material,
-                            const PeriodicCell& cell, const Bonds& bonds,
-                            const Contacts& contacts)
+/// Sum of the stiffnesses of springs to triangulated walls [N/m]; collective.
+double stiffness_of_walls(const Assembly& assembly, const Springs& springs)
 {
-  // Each pair force acts on two particles; the owner of the first particle counts it.
   ForceSum sum;
-  const auto contact_force = [&](const Pair& q) {
-    return read_contact(q, Vec3::Zero(), p, cell, material.contact).f_n;
-  };
-  for (std::size_t b = 0; b < bonds.size(); ++b) {
-    if (!p.owns(bonds.pairs[b].i)) continue;
-    const BondReading r = read_bond(bonds, b, p, cell, material.bond);
-    sum.add(2.0 * (std::hypot(r.N, r.V.norm()) + contact_force(bonds.pairs[b])));
+  for (const WallSpring& k : springs.walls)
+    if (k.wall != WallSpring::held) sum.add(k.k_n);
+  ExactReduction all;
+  all.add(sum);
+  all.run(assembly.comm);
+  return sum.value();
+}
+
+/// Leapfrog is stable to 2/omega; local damping acts as 1 + alpha times the force while it
+/// brakes.
+double stable(double omega2, double damping)
+{
+  if (!(omega2 > 0.0)) return std::numeric_limits<double>::infinity();
+  return 2.0 / std::sqrt(omega2 * (1.0 + damping));
+}
+
+void find_stable_step(StableStep& step, const Assembly& assembly, const StepSpec& spec,
+                      const Springs& springs, double damping, const WallSystem* system)
+{
+  step.stiffest = block_bound(assembly, springs);
+  step.bound2 = step.omega2 = step.stiffest.omega2;
+  step.stiffest_then = step.stiffest.id;
+  ++step.n_looks;
+  step.largest_rise = 1.0;
+  step.wall_stiffness = stiffness_of_walls(assembly, springs);
+  const double scale = step.bound2 > 0.0 ? step.bound2 : 1.0;
+  if (spec.rule == StepRule::block_bound) {
+    if (has_motion(system)) // the bound does not know what else moves
+      step.omega2 =
+          std::max(step.bound2, largest_frequency2(assembly, springs, scale, system));
+  } else if (step.bound2 > 0.0 || has_motion(system)) {
+    step.omega2 = largest_frequency2(assembly, springs, scale, system);
   }
-  for (const Pair& q : contacts.pairs)
-    if (p.owns(q.i)) sum.add(2.0 * contact_force(q));
-  return sum;
+  step.limit = stable(step.omega2, damping);
+}
+
+} // namespace
+
+void find_stable_step(StableStep& step, Assembly& assembly, const StepSpec& spec, double dt,
+                      double damping, const WallSystem* system)
+{
+  const auto with = [&](double dt_ahead) {
+    find_stable_step(step, assembly, spec, present_springs(assembly, dt_ahead, system),
+                     damping, system);
+  };
+  if (!(dt > 0.0)) with(0.0);
+  with(dt > 0.0 ? dt : spec.safety * step.limit);
+}
+
+void update_stable_step(StableStep& step, Assembly& assembly, const StepSpec& spec,
+                        std::size_t n_steps, double dt, double damping,
+                        const WallSystem* system)
+{
+  const Springs springs = present_springs(assembly, dt, system);
+  const bool is_due = n_steps > 0 && n_steps % steps_between_looks == 0;
+  const bool is_first_spring = step.bound2 == 0.0;
+  const bool are_walls_stiffer =
+      has_motion(system) &&
+      stiffness_of_walls(assembly, springs) > noticeable_growth * step.wall_stiffness;
+  if (is_due || is_first_spring || are_walls_stiffer)
+    return find_stable_step(step, assembly, spec, springs, damping, system);
+  step.stiffest = block_bound(assembly, springs);
+  // Its ratio of frequency and bound may be nearer to 1 than that of the one before. While
+  // rock is crushed this happens often, and a look costs as much as some 30 steps.
+  const bool is_other = step.stiffest.id != step.stiffest_then;
+  const double s2 = std::min(1.0, spec.safety * spec.safety);
+  const bool may_be_unstable = s2 * step.stiffest.omega2 > step.omega2 * step.largest_rise;
+  if (is_other && may_be_unstable && n_steps % steps_between_early_looks == 0)
+    return find_stable_step(step, assembly, spec, springs, damping, system);
+  step.largest_rise = std::max(step.largest_rise, step.stiffest.omega2 / step.bound2);
+  step.limit = stable(step.omega2 * step.largest_rise, damping);
+}
+
+std::string what_rules(const StableStep& step)
+{
+  if (std::isinf(step.limit)) return "nothing";
+  if (step.omega2 > step.bound2) return "a structure";
+  char S[32];
+  std::snprintf(S, sizeof S, "%.3g", step.stiffest.S);
+  return std::string(step.stiffest.rotation > 0.5 ? "rotation" : "translation") +
+         " of particle " + std::to_string(step.stiffest.id) + " (S = " + S + ")";
+}
+
+double stable_time_step(Assembly& assembly, const StepSpec& spec, double dt)
+{
+  StableStep step;
+  find_stable_step(step, assembly, spec, dt, assembly.motion.damping);
+  return spec.safety * step.limit;
 }
 
 } // namespace mergel::dem

@@ -1,54 +1,77 @@
-/// Stable time step from the stiffness that resists the motion of each particle
-/// (dem/README.md, Time step).
+/// The time step of a run, from the largest frequency of all that acts (dem/README.md, Time
+/// step).
 #pragma once
 
-#include "dem/pairs/forces.h"
-#include "dem/particles/integrate.h"
-#include "dem/walls/mirror.h"
-#include "dem/walls/rigid_wall.h"
-#include "dem/walls/triangulated.h"
+#include "dem/assembly/block_bound.h"
+#include "dem/assembly/largest_frequency.h"
+
+#include <string>
 
 namespace mergel::dem {
 
-/// Share of the critical time step that is used where nothing else is asked for [-].
-inline constexpr double default_safety = 0.7;
-
-/// Steps after which the critical time step, and what else costs more than a step, is
-/// evaluated again.
-inline constexpr std::size_t steps_between_step_checks = 100;
-
-/// Stiffness that resists the motion of each particle.
-struct StiffnessSums {
-  std::vector<double> k;     ///< sum of normal stiffnesses [N/m]
-  std::vector<double> k_rot; ///< sum of 2 k_s a^2 + 2 k_b [N m]
+/// Where the stable step comes from.
+enum class StepRule {
+  eigenvalue, ///< the largest frequency of the system, guarded by a bound between two looks
+  block_bound ///< the bound of the particles alone: smaller steps, mostly no iteration
 };
 
-StiffnessSums stiffness_sums(const PairMaterials& material, const PeriodicCell& cell,
-                             const Particles& p, const Bonds& bonds,
-                             const Contacts& contacts);
+/// Share of the stable step that is used where nothing else is asked for [-].
+inline constexpr double default_safety = 0.9;
+/// The same of the block bound, which is on the safe side already [-].
+inline constexpr double default_block_safety = 0.98;
+/// Largest share that is accepted [-]: beyond 1 a run goes unstable, which shows in its
+/// energy balance.
+inline constexpr double largest_safety = 1.5;
 
-/// Add the stiffness of a wall: of its contacts that press, and of its bonds.
-void add_wall_stiffness(StiffnessSums& s, const Mirror& mirror,
-                        const PairMaterials& material, const Particles& p);
-void add_wall_stiffness(StiffnessSums& s, const Wall& wall, const PairMaterials& material,
-                        const Particles& p);
-void add_wall_stiffness(StiffnessSums& s, const RigidWall& wall,
-                        const PairMaterials& material, const Particles& p);
+/// Steps after which the bound, and what else costs more than a step, is evaluated again.
+inline constexpr std::size_t steps_between_step_checks = 100;
+/// Steps after which the largest frequency is computed again.
+inline constexpr std::size_t steps_between_looks = 5000;
 
-/// s min[ sqrt(2 m/sum k), sqrt(2 I_p/sum(2 k_s a^2 + 2 k_b)) ] / sqrt(1 + alpha) [s].
-///
-/// A pair of masses m on a spring k has omega^2 = 2 k/m at most, and leapfrog is stable to
-/// 2/omega. Local damping acts as 1 + alpha times the force while it brakes. The rotational
-/// term counts for particles that may spin (dem/README.md, Motion).
-/// Minimum over the owned particles; the step is the global min of it.
-/// @param safety in (0, 1]
-double time_step(const StiffnessSums& s, const Particles& p, double safety,
-                 const Motion& motion);
+struct StepSpec {
+  StepRule rule = StepRule::eigenvalue;
+  double safety = default_safety; ///< step over stable step, in (0, largest_safety]
+};
 
-/// Sum of the magnitudes of the pair forces, each counted for both particles [N]. Pairs
-/// whose first particle is owned.
-ForceSum sum_of_pair_forces(const Particles& p, const PairMaterials& material,
-                            const PeriodicCell& cell, const Bonds& bonds,
-                            const Contacts& contacts);
+/// The stable step of a run, which is part of its state.
+struct StableStep {
+  double limit =
+      0.0; ///< stable step by the rule, with damping; infinite without springs [s]
+  double omega2 = 0.0;         ///< squared largest frequency at the last look [1/s^2]
+  double bound2 = 0.0;         ///< block bound then [1/s^2]
+  double largest_rise = 1.0;   ///< of the block bound since then [-], >= 1
+  double wall_stiffness = 0.0; ///< of contacts and bonds with the system of the walls then,
+                               ///< sum [N/m]
+  StiffestParticle stiffest;   ///< at the last evaluation
+  std::uint64_t stiffest_then = 0; ///< its id at the last look
+  std::uint64_t n_looks = 0;       ///< so far
+};
+
+/// A look: compute the stable step from the largest frequency of the present state. Rebuilds
+/// the lists if need be. Collective.
+/// @param dt present step [s]: contacts count that may close until the next check. 0 where
+///   there is none yet: then a first look finds it. Where nothing acts at all, all contacts
+///   count that are nearly closed
+/// @param damping the largest local damping of particles and structures [-]
+/// @param system what moves the triangulated walls; null: nothing does
+void find_stable_step(StableStep& step, Assembly& assembly, const StepSpec& spec, double dt,
+                      double damping, const WallSystem* system = nullptr);
+
+/// What is done every steps_between_step_checks steps: the stable step falls as the block
+/// bound rises above that of the last look, and does not grow. Looks again every
+/// steps_between_looks steps, where another particle has become the stiffest one, for whose
+/// motions the ratio of frequency and bound is another, and where the springs to the system
+/// of the walls have become stiffer by a tenth. Collective.
+/// @param n_steps of the run
+void update_stable_step(StableStep& step, Assembly& assembly, const StepSpec& spec,
+                        std::size_t n_steps, double dt, double damping,
+                        const WallSystem* system = nullptr);
+
+/// What rules the step: "rotation of particle 17 (S = 5)"; "a structure".
+std::string what_rules(const StableStep& step);
+
+/// The time step of the present state [s], for those that step an assembly by themselves.
+/// @param dt present step, as of find_stable_step() [s]
+double stable_time_step(Assembly& assembly, const StepSpec& spec, double dt = 0.0);
 
 } // namespace mergel::dem

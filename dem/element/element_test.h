@@ -3,6 +3,8 @@
 
 #include "dem/assembly/averages.h"
 #include "dem/assembly/energy_balance.h"
+#include "dem/assembly/mass_scaling.h"
+#include "dem/assembly/timestep.h"
 #include "dem/element/stress_path.h"
 
 #include <string>
@@ -17,7 +19,9 @@ struct ElementControl {
   double strain_limit = 0.5;       ///< of the test [-]
   double reversal = 0.5;           ///< share of its progress by which a stress may fall [-]
   double damping = default_damping; ///< local damping alpha [-], in [0, 1)
-  double safety = default_safety;   ///< of the time step [-], in (0, 1]
+  StepSpec step;                    ///< rule and safety of the time step
+  double inertia_factor = 1.0;      ///< of the moments of inertia [-], > 0
+  MassScalingSpec mass_scaling;     ///< off by default
   bool free_rotation = false;       ///< of particles without a bond
   double record_every = 2e-4;       ///< strain [-]
 };
@@ -45,7 +49,9 @@ struct ElementState {
   Assembly assembly;
   Servo servo;
   ActiveStage active;
-  Vec3 size_0 = Vec3::Zero();       ///< edges before the first stage [m]
+  Vec3 size_0 = Vec3::Zero(); ///< edges before the first stage [m]
+  StableStep stable_step;
+  EnergyAlarm alarm;
   double dt = 0.0, dt_before = 0.0; ///< [s]
   double time = 0.0;                ///< [s]
   std::size_t stage = 0;            ///< from 0
@@ -80,6 +86,7 @@ struct ElementRecord {
   EnergyBalance balance;
   double energy_error = 0.0; ///< share of the gross work [-]
   double inertial_number = 0.0, unbalanced = 0.0;
+  double time_step = 0.0, stable_step = 0.0; ///< [s]
 };
 
 class ElementTest {
@@ -101,9 +108,6 @@ public:
   bool is_approaching() const { return state_.active.is_approaching; }
   /// One step. @throws Unstable naming what went wrong, the step and the time
   void step();
-  /// Compute the stable step; lower the time step if the stable step is smaller.
-  /// Collective.
-  void lower_time_step();
   /// Whether the stage has reached its target, the specimen has failed, or the stage goes
   /// on. Failure is checked when a record is due, in means over the steps since the last
   /// record.

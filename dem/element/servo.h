@@ -30,12 +30,12 @@ using CellControl = std::array<AxisControl, 3>;
 /// with a damping ratio sqrt(m) tau_i/(2 tau): tau_i = 4 tau is critical for m = 1/4 and
 /// above critical for a stiffer cell. A disturbance at constant rate leaves no mean error;
 /// the error decays over tau_i^2/tau = 16 tau. tau is `steps` time steps, in which the
-/// particles rearrange.
+/// particles rearrange: two periods of the fastest motion.
 struct Servo {
   Vec3 integral = Vec3::Zero();  ///< I [1/s]
   Vec3 stiffness = Vec3::Zero(); ///< M [Pa], > 0 on stress-controlled axes
   double limit = 0.0;            ///< of a rate [1/s]; at the limit I does not change
-  double steps = 25.0;           ///< tau over the time step [-]
+  double steps = 10.0;           ///< tau over the time step [-]
   std::size_t n_limited = 0;     ///< number of rates that were limited, over all steps
 
   /// Strain rates of a step of dt [s]; advances the integrals by it.

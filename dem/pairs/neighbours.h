@@ -70,6 +70,12 @@ public:
   }
   /// The same on one rank.
   bool is_stale(const Particles& p) { return may_be_stale(p) && is_stale(travel(p)); }
+  /// Whether the list has all pairs with a gap below (g_a + beyond) S.
+  /// @param largest global max of travel() [m]; @param beyond at S = 1, below the skin [m]
+  bool is_complete_to(double beyond, double largest) const
+  {
+    return largest <= allowance() - 0.5 * beyond;
+  }
 
   /// Replace the pairs of `contacts`, without those that were ever bonded. Pairs that
   /// remain keep their shear force.

@@ -58,20 +58,22 @@ struct Kick {
     const double alpha = motion.damping;
     const Vec3 v_old = b.v;
     Row work_of_damping{};
-    const Row weight = b.m * gravity;
+    const double weighs = true_mass(p, i);
+    const Row weight = weighs * gravity;
     set_row(b.v,
             kicked(row(b.v), row(load.f) + weight, alpha, dt / b.m, dt, work_of_damping));
     double damped = 0.0 - work_of_damping[0] - work_of_damping[1] - work_of_damping[2];
-    if (p.n_bonds[i] > 0 || motion.free_rotation) {
-      set_row(b.omega, kicked(row(b.omega), row(load.t), alpha, dt / b.inertia(), dt,
-                              work_of_damping));
+    const double I_p = inertia(b, motion);
+    if (spins(p, motion, i)) {
+      set_row(b.omega,
+              kicked(row(b.omega), row(load.t), alpha, dt / I_p, dt, work_of_damping));
       damped = damped - work_of_damping[0] - work_of_damping[1] - work_of_damping[2];
     } else if (b.omega != Vec3::Zero()) {
-      work.rotation_constraint.add(0.5 * b.inertia() * b.omega.squaredNorm());
+      work.rotation_constraint.add(0.5 * I_p * b.omega.squaredNorm());
       b.omega.setZero();
     }
     work.damping.add(damped);
-    if (has_weight) work.gravity.add(0.5 * dt * (b.m * motion.gravity).dot(v_old + b.v));
+    if (has_weight) work.gravity.add(0.5 * dt * (weighs * motion.gravity).dot(v_old + b.v));
   }
 };
 
@@ -130,12 +132,12 @@ void clear_loads(Particles& p)
     std::fill(p.load.begin() + r.begin, p.load.begin() + r.end, Load{});
 }
 
-EnergySum kinetic_energy_sum(const Particles& p)
+EnergySum kinetic_energy_sum(const Particles& p, const Motion& motion)
 {
   EnergySum e;
   p.for_owned([&](Index i) {
     const ParticleState& b = p.state[i];
-    e.add(0.5 * (b.m * b.v.squaredNorm() + b.inertia() * b.omega.squaredNorm()));
+    e.add(0.5 * (b.m * b.v.squaredNorm() + inertia(b, motion) * b.omega.squaredNorm()));
   });
   return e;
 }
@@ -144,7 +146,7 @@ ForceSum sum_of_resultants(const Particles& p, const Motion& motion)
 {
   ForceSum sum;
   p.for_owned(
-      [&](Index i) { sum.add((p.load[i].f + p.state[i].m * motion.gravity).norm()); });
+      [&](Index i) { sum.add((p.load[i].f + true_mass(p, i) * motion.gravity).norm()); });
   return sum;
 }
 

@@ -16,7 +16,20 @@ struct Motion {
   Vec3 gravity = Vec3::Zero();      ///< [m/s^2]
   double damping = default_damping; ///< local damping alpha [-], 0 to below 1
   bool free_rotation = false;       ///< lets particles without an intact bond spin
+  double inertia_factor = 1.0; ///< of the moments of inertia in the equations of motion [-]
 };
+
+/// Moment of inertia in the equations of motion [kg m^2].
+inline double inertia(const ParticleState& b, const Motion& motion)
+{
+  return motion.inertia_factor * b.inertia();
+}
+
+/// Whether the particle may spin: the rotation constraint of kick().
+inline bool spins(const Particles& p, const Motion& motion, Index i)
+{
+  return p.n_bonds[i] > 0 || motion.free_rotation;
+}
 
 /// Work of the kick on all owned particles. Each term is exact for the leapfrog: force at
 /// t^n times the mean of the velocities at n-1/2 and n+1/2.
@@ -38,8 +51,8 @@ void visit_sums(Work& work, Visit&& visit)
 }
 
 /// v^{n+1/2} = v^{n-1/2} + dt (f - alpha |f| sign v)/m with f = load + m g, component by
-/// component; the same for the spin. Rotation constraint (paper, section 2.1.2): a particle
-/// without an intact bond does not spin.
+/// component; the same for the spin. Gravity acts on the true mass. Rotation constraint
+/// (paper, section 2.1.2): a particle without an intact bond does not spin.
 /// @param dt mean of the steps before and after [s]
 void kick(Particles& p, const Motion& motion, double dt, KickWork& work);
 
@@ -57,10 +70,10 @@ double kick_and_drift(Particles& p, const Motion& motion, double dt_kick, double
 void clear_loads(Particles& p);
 
 /// Kinetic energy of the owned particles at the half step [J].
-EnergySum kinetic_energy_sum(const Particles& p);
-inline double kinetic_energy(const Particles& p)
+EnergySum kinetic_energy_sum(const Particles& p, const Motion& motion);
+inline double kinetic_energy(const Particles& p, const Motion& motion = {})
 {
-  return kinetic_energy_sum(p).value();
+  return kinetic_energy_sum(p, motion).value();
 }
 
 /// Sum of the magnitudes of the resultant forces on owned particles, gravity included [N].

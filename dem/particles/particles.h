@@ -48,6 +48,8 @@ struct Particles {
   std::vector<std::uint64_t> id; ///< global, never reused, ascending
   std::vector<int> n_bonds;      ///< intact bonds, with those to walls and mirror image
   std::vector<double> strength;  ///< factor of bond strengths [-]; empty: 1 (strength.h)
+  /// Mass over the true mass, which has the weight [-]; empty: 1 (assembly/mass_scaling.h).
+  std::vector<double> mass_factor;
 
   std::size_t size() const { return state.size(); }
   std::size_t n_owned() const { return n_owned_; }
@@ -103,6 +105,12 @@ private:
   std::vector<IndexRange> owned_, present_;
   std::size_t n_owned_ = 0;
 };
+
+/// Mass that has weight [kg].
+inline double true_mass(const Particles& p, Index i)
+{
+  return p.mass_factor.empty() ? p.state[i].m : p.state[i].m / p.mass_factor[i];
+}
 
 /// Mass of a solid sphere [kg].
 inline double sphere_mass(double R, double rho)

@@ -1,6 +1,8 @@
 #include "dem/specimen/compaction.h"
 
 #include "dem/assembly/distribute.h"
+#include "dem/assembly/step.h"
+#include "dem/assembly/timestep.h"
 #include "dem/specimen/growth.h"
 #include "dem/text.h"
 
@@ -14,6 +16,9 @@ namespace mergel::dem {
 namespace {
 
 constexpr double at_rest = 1e-3; // unbalanced-force ratio
+
+/// Contacts come and go while a specimen is made: the bound, which is never too large.
+constexpr StepSpec step_spec{StepRule::block_bound, default_block_safety};
 
 double wall_pressure_term(const ContactLaw& m, const ParticleState& b, double gap)
 {
@@ -51,7 +56,8 @@ double dense_time_step(const Assembly& assembly)
                            .k_n; // > 0
     smallest = std::min(smallest, std::sqrt(2.0 * b.m / (12.0 * k_n)));
   }
-  return default_safety * smallest / std::sqrt(1.0 + assembly.motion.damping);
+  constexpr double safety = 0.7; // there may be more neighbours
+  return safety * smallest / std::sqrt(1.0 + assembly.motion.damping);
 }
 
 /// An unbonded assembly whose particle sizes can change while it moves.
@@ -69,7 +75,7 @@ public:
     if (comm != MPI_COMM_NULL) distribute(assembly_, comm);
     add_forces(assembly_, 0.0);
     dt_ = dt_before_ =
-        std::min(dense_time_step(assembly_), stable_time_step(assembly_, default_safety));
+        std::min(dense_time_step(assembly_), stable_time_step(assembly_, step_spec));
   }
 
   /// One step, at the end of which all sizes are `factor` times what they were.
@@ -79,7 +85,7 @@ public:
     advance(assembly_, dt_before_, dt_, [](double) {});
     dt_before_ = dt_;
     if (++n_steps_ % steps_between_step_checks == 0)
-      dt_ = std::min(dt_, stable_time_step(assembly_, default_safety));
+      dt_ = std::min(dt_, stable_time_step(assembly_, step_spec, dt_));
   }
 
   void set_friction(double mu)

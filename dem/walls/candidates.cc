@@ -201,6 +201,22 @@ std::optional<PatchContact> patch_contact(const Wall& wall,
   return p;
 }
 
+std::optional<NearestPoint> nearest_point(const Wall& wall,
+                                          const ListedCandidate& candidate, const Vec3& x,
+                                          double reach)
+{
+  std::optional<NearestPoint> nearest;
+  for (const auto& near : candidate.near) {
+    const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(near.triangle)][0])];
+    if ((x - corner).dot(wall.normals[uz(near.triangle)]) > reach) continue; // of its plane
+    const ClosestFeature at = closest_on(wall, near.triangle, x);
+    const double d = (x - at.point).norm();
+    if (d > reach || (nearest && d >= nearest->distance)) continue;
+    nearest = {{near.triangle, at.weight}, at.point, d};
+  }
+  return nearest;
+}
+
 void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double skin)
 {
   std::vector<WallContact> found;

@@ -120,6 +120,18 @@ std::optional<PatchContact> patch_contact(const Wall& wall,
                                           const ParticleState& particle,
                                           double wall_travel);
 
+/// The point of the candidate's triangles that is closest to the particle.
+struct NearestPoint {
+  Anchor at;
+  Vec3 point;      ///< [m]
+  double distance; ///< to the centre of the particle [m]
+};
+
+/// Nothing if it is further than `reach` [m] from the centre x.
+std::optional<NearestPoint> nearest_point(const Wall& wall,
+                                          const ListedCandidate& candidate, const Vec3& x,
+                                          double reach);
+
 /// Call it after x changed and before patch_contact() or add_wall_forces().
 void update_normals(Wall& wall);
 

@@ -157,7 +157,9 @@ void FarFieldSpec::check() const
 
 struct FarField::Parts {
   Parts(const FarFieldSpec& spec, MPI_Comm comm)
-      : count(layers(geometry(spec))), solid(meshed(spec), properties(spec), supports(spec))
+      : count(layers(geometry(spec))),
+        solid(meshed(spec), properties(spec), supports(spec)),
+        product(solid.discrete().K, comm)
   {
     std::tie(interface, nodes) = make_interface(solid);
     motion = std::make_unique<Leapfrog>(solid.discrete(), spec.damping, nodes, comm);
@@ -174,6 +176,7 @@ struct FarField::Parts {
   ElasticSolid solid;
   InterfaceMesh interface;
   std::vector<std::uint32_t> nodes; // of the solid, at interface.x
+  SharedProduct product;            // with the stiffness
   std::unique_ptr<Leapfrog> motion;
 };
 
@@ -226,20 +229,45 @@ void FarField::step(double dt, std::span<const Eigen::Vector3d> f_interface)
   parts_->motion->step(dt, f_interface);
 }
 
-double FarField::stable_time_step(std::span<const double> k_interface) const
+double FarField::stable_time_step() const
+{
+  return 2.0 / largest_frequency(parts_->solid.discrete()); // > 0: the interface can move
+}
+
+namespace {
+
+/// M^-1/2 y of one node, in its supports.
+Vec3 motion_of(const DiscreteSolid& s, std::span<const double> y, std::size_t a)
+{
+  return s.P[a] * Vec3(y[3 * a], y[3 * a + 1], y[3 * a + 2]) /
+         std::sqrt(s.m(static_cast<Eigen::Index>(a)));
+}
+
+} // namespace
+
+void FarField::interface_motion(std::span<const double> y,
+                                std::vector<Eigen::Vector3d>& u) const
+{
+  u.clear();
+  for (const auto a : parts_->nodes) u.push_back(motion_of(parts_->solid.discrete(), y, a));
+}
+
+void FarField::multiply(std::span<const double> y,
+                        std::span<const Eigen::Vector3d> f_interface,
+                        std::span<double> to) const
 {
   const DiscreteSolid& s = parts_->solid.discrete();
-  Eigen::ArrayXd k_extra;
-  if (!k_interface.empty()) {
-    if (k_interface.size() != parts_->nodes.size())
-      throw std::invalid_argument(
-          "stable time step of the far field: one wall stiffness per "
-          "interface node needed");
-    k_extra = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(s.n_nodes()));
-    for (std::size_t k = 0; k < k_interface.size(); ++k)
-      k_extra(parts_->nodes[k]) = k_interface[k];
+  const auto column = [](std::size_t a) { return static_cast<Eigen::Index>(a); };
+  NodalField u = NodalField::Zero(4, column(s.n_nodes())), Ku = u;
+  for (std::size_t a = 0; a < s.n_nodes(); ++a)
+    u.col(column(a)).head<3>() = motion_of(s, y, a).array();
+  parts_->product.multiply(u, Ku);
+  for (std::size_t k = 0; k < f_interface.size(); ++k)
+    Ku.col(parts_->nodes[k]).head<3>() += f_interface[k].array();
+  for (std::size_t a = 0; a < s.n_nodes(); ++a) {
+    const Vec3 f = s.P[a] * at(Ku, column(a)) / std::sqrt(s.m(column(a)));
+    for (int c = 0; c < 3; ++c) to[3 * a + static_cast<std::size_t>(c)] = f[c];
   }
-  return 2.0 / largest_frequency(s, k_extra); // > 0: the interface can move
 }
 
 double FarField::unbalanced_ratio() const

@@ -87,10 +87,19 @@ public:
   /// u^n, which sets v^{n+1/2}, then drift, which sets u^{n+1}. See fem/solid/leapfrog.h.
   void step(double dt, std::span<const Eigen::Vector3d> f_interface);
 
-  /// 2/omega_max [s], without any factor of safety (none for damping either).
-  /// @param k_interface wall springs on the interface nodes [N/m], in the order of
-  ///   interface().x: for each contact its stiffness times the shape function; may be empty
-  double stable_time_step(std::span<const double> k_interface = {}) const;
+  /// 2/omega_max of the far field alone [s], without any factor of safety (none for damping
+  /// either).
+  double stable_time_step() const;
+
+  /// Its linear system M a + K u = f in the amplitudes y = M^1/2 u, three for each node, for
+  /// the largest frequency of all that it is coupled to; y has the length n_amplitudes().
+  std::size_t n_amplitudes() const { return 3 * n_nodes(); }
+  /// M^-1/2 y of the interface nodes, projected to their supports [kg^-1/2].
+  void interface_motion(std::span<const double> y, std::vector<Eigen::Vector3d>& u) const;
+  /// M^-1/2 (K M^-1/2 y + f) into `to`, f on the interface nodes, projected to the supports.
+  /// Collective.
+  void multiply(std::span<const double> y, std::span<const Eigen::Vector3d> f_interface,
+                std::span<double> to) const;
 
   double unbalanced_ratio() const; ///< see Leapfrog::unbalanced_ratio
   Energies energies() const;       ///< see Energies in fem/solid/leapfrog.h

@@ -8,7 +8,7 @@
 
 namespace mergel::fem {
 
-double largest_frequency(const DiscreteSolid& solid, const Eigen::ArrayXd& k_extra)
+double largest_frequency(const DiscreteSolid& solid)
 {
   const auto n = static_cast<Eigen::Index>(solid.n_nodes());
   const Eigen::ArrayXd root = solid.m.sqrt().inverse(); // m > 0
@@ -34,10 +34,6 @@ double largest_frequency(const DiscreteSolid& solid, const Eigen::ArrayXd& k_ext
   for (int k = 0; k < largest_basis; ++k) {
     const NodalField s = scale * q;
     solid.K.multiply(s, Kq);
-    if (k_extra.size() > 0)
-      for (Eigen::Index a = 0; a < n; ++a)
-        Kq.col(a).head<3>() +=
-            k_extra(a) * (solid.P[a] * s.col(a).head<3>().matrix()).array();
     NodalField w = scale * Kq;
     const double alpha = dot(q, w);
     w -= alpha * q;

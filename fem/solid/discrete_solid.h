@@ -28,9 +28,6 @@ struct DiscreteSolid {
 
 /// Largest omega [rad/s] of K u = omega^2 m u, by Lanczos iteration until the estimate
 /// changes by less than 1e-6 of itself (fem/README.md, Stable step).
-/// @param k_extra springs from the nodes to the ground, added to the diagonal [N/m]; one
-///   per node or none. They bound the springs of a wall: N N^T <= diag(N) if the rows of N
-///   are >= 0 and sum to 1.
-double largest_frequency(const DiscreteSolid& solid, const Eigen::ArrayXd& k_extra = {});
+double largest_frequency(const DiscreteSolid& solid);
 
 } // namespace mergel::fem

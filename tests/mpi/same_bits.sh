@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The same bits on 1, 2, 3, 4 and 8 ranks: bonded assemblies that break and move across the borders of the
-# ranks, with forced rebuilds and migrations in the middle; and a small coupled pile. Each scene is also
+# ranks, with forced rebuilds and migrations and a new largest frequency in the middle; and a small coupled pile. Each scene is also
 # stopped at an arbitrary step and restarted on another number of ranks, twice (the pile: restart.sh).
 #
 # usage: tests/mpi/same_bits.sh MPI_SCENES MERGEL

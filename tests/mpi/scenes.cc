@@ -21,6 +21,7 @@
 #include "dem/element/servo.h"
 #include "dem/io/state/assembly_state.h"
 #include "dem/io/state/checkpoint.h"
+#include "dem/io/state/step_numbers.h"
 #include "dem/math/random.h"
 #include "dem/pairs/strength.h"
 
@@ -161,11 +162,29 @@ struct Options {
   int stop = n_steps;
 };
 
+template <class Working>
+NumbersOf<Working> numbers_of(Working& w)
+{
+  NumbersOf<Working> all{{"time step [s]", &w.dt},
+                         {"previous time step [s]", &w.dt_before}};
+  append_stable_step(all, w.stable_step);
+  return all;
+}
+
+template <class Working>
+CountsOf<Working> counts_of(Working& w)
+{
+  CountsOf<Working> all;
+  append_stable_step_counts(all, w.stable_step);
+  return all;
+}
+
 void save(const apps::WorkingAssembly& w, const Servo& servo, const std::string& file)
 {
   State state(w.assembly.comm.rank());
   save(state, w.assembly);
-  state.add_common<double>("steps", {w.dt, w.dt_before});
+  save_numbers(state, "steps", numbers_of(w));
+  save_counts(state, "step_counts", counts_of(w));
   const Vec3 &I = servo.integral, &M = servo.stiffness;
   state.add_common<double>("servo", {I.x(), I.y(), I.z(), M.x(), M.y(), M.z()}, 6);
   write_checkpoint(file, {"test", "scene", "", "", w.n_steps, 0.0}, std::move(state),
@@ -177,11 +196,19 @@ void restore(apps::WorkingAssembly& w, Servo& servo, const std::string& file)
   Checkpoint c = read_checkpoint(file);
   load(c.state, w.assembly);
   w.n_steps = c.label.step;
-  w.dt = c.state.get<double>("steps")[0];
-  w.dt_before = c.state.get<double>("steps")[1];
+  load_numbers(c.state, "steps", numbers_of(w));
+  load_counts(c.state, "step_counts", counts_of(w));
   const auto& s = c.state.get_rows<double>("servo", 1, 6);
   servo.integral = {s[0], s[1], s[2]};
   servo.stiffness = {s[3], s[4], s[5]};
+}
+
+/// Forces and stable step of what was bonded since the assembly was made.
+void start(apps::WorkingAssembly& w)
+{
+  add_forces(w.assembly, 0.0);
+  find_stable_step(w.stable_step, w.assembly, StepSpec{}, 0.0, w.assembly.motion.damping);
+  w.dt = w.dt_before = default_safety * w.stable_step.limit;
 }
 
 void run(const std::string& name, const Options& o)
@@ -189,7 +216,8 @@ void run(const std::string& name, const Options& o)
   const bool rebuilds = o.rebuilds, rebalances = o.rebalances;
   apps::WorkingAssembly w = make(name);
   weaken(w.assembly, 1e8);
-  const auto n_before = w.n_steps;
+  // The largest frequency is computed again in the middle of the run, after the first stop.
+  const auto n_before = w.n_steps = steps_between_looks - n_steps / 2;
   Servo servo;
   if (!o.restart.empty()) restore(w, servo, o.restart);
   if (name == "varied")
@@ -197,7 +225,7 @@ void run(const std::string& name, const Options& o)
                    w.assembly.particles);
   distribute(w.assembly, MPI_COMM_WORLD);
   if (o.restart.empty())
-    add_forces(w.assembly, 0.0);
+    start(w);
   else
     rebuild_lists(w.assembly);
   for (int step = static_cast<int>(w.n_steps - n_before) + 1; step <= o.stop; ++step) {

@@ -57,7 +57,7 @@ ends "bond, a walltime" 1 'mergel bond: --walltime 4h: the job writes no checkpo
 ends "sample, a walltime" 1 'mergel sample: --walltime 4h: the job writes no checkpoints' sample "$pile" --walltime 4h --output none
 
 ends "sample, done" 0 '' sample "$pile" "${tiny[@]}" --output sample
-kib=8 ends "sample, the disk is full" 2 'sample\.h5: cannot be written: File too large' sample "$pile" "${tiny[@]}" --output full_sample
+kib=16 ends "sample, the disk is full" 2 'sample\.h5: cannot be written: File too large' sample "$pile" "${tiny[@]}" --output full_sample
 
 ends "pile, a sample with a name too long" 1 'there is no such file' pile "$pile" --set "Specimen/file=$long" --output none
 ends "pile, the run is unstable" 2 '[a-z]' pile "$pile" "${tiny[@]}" --set "Specimen/file=sample/sample.h5" \

@@ -102,14 +102,25 @@ cmp whole/history.csv e/history.csv || fail "the history differs"
 grep -q 'set aside: e/checkpoint_999999999999.h5.aside' log && [ -e e/checkpoint_999999999999.h5.aside ] ||
   fail "the damaged one was not kept: $(ls e)"
 
-# After an instability the same step would fail again: the factor of the time step may be lowered, with
-# effect at once; it cannot be raised.
-rm -rf e; cp -r b e
-[ "$(code_of pile --restart e --set "Motion/time step safety=0.9")" -eq 1 ] && grep -q 'time step safety.*was 0.7, and a restart can only lower it' log ||
-  fail "a raised factor of the time step: $(cat log)"
-pile --restart e --set "Motion/time step safety=0.35" >log || fail "a lowered factor of the time step: $(tail -3 log)"
-dt() { awk -F': ' '/"time step \[s\]"/ { print $2 + 0 }' "$1/summary.json"; }
-awk -v a="$(dt whole)" -v b="$(dt e)" 'BEGIN { exit !(b > 0.45 * a && b < 0.55 * a) }' || fail "time step $(dt e), before $(dt whole)"
+# After an instability the same step would fail again: a restart may have another share of the stable step,
+# with effect at once. Both steps are columns of the history.
+column() { # NAME FILE: of all lines
+  awk -F, -v name="$1" 'NR == 1 { for (k = 1; k <= NF; ++k) if ($k == name) at = k; next } { print $at }' "$2"
+}
+takes() { # FOLDER SHARE: of the stable step, in the last line, to the digits of the history
+  paste -d' ' <(column "time step [s]" "$1/history.csv") <(column "stable step [s]" "$1/history.csv") |
+    awk -v share="$2" '{ s = $1 / $2 } END { exit !(s > share * (1 - 1e-4) && s < share * (1 + 1e-4)) }'
+}
+takes whole 0.9 || fail "the default share of the stable step is not 0.9: $(tail -1 whole/history.csv)"
+for safety in 0.45 0.95; do
+  rm -rf e; cp -r b e
+  pile --restart e --set "Motion/time step safety=$safety" >log || fail "time step safety $safety: $(tail -3 log)"
+  grep -q "Motion/time step safety was 0.9, is now $safety" log || fail "the change is not reported: $(cat log)"
+  takes e "$safety" || fail "the share of the stable step is not $safety: $(tail -1 e/history.csv)"
+done
+[ "$(code_of pile --restart b --output none --set "Motion/time step safety=1.6")" -eq 1 ] &&
+  grep -q 'Motion/time step safety = 1.6' log || fail "a share of 1.6: $(cat log)"
+[ ! -e none ] || fail "a refused restart wrote something"
 
 # A newer checkpoint that is not damaged is not passed over: of another user, of a newer program, here a
 # link to nowhere.

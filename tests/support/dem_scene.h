@@ -5,8 +5,10 @@
 #include "dem/pairs/forces.h"
 #include "dem/particles/integrate.h"
 
+#include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 #include <random>
 
 namespace mergel::dem::test {
@@ -163,5 +165,29 @@ struct Scene {
     return sum;
   }
 };
+
+/// A scene as an assembly, which finds its contacts by itself. Its lists have a skin of a
+/// tenth of the smallest radius.
+inline Assembly assembly_of(const Scene& s)
+{
+  double R = std::numeric_limits<double>::infinity();
+  for (const ParticleState& b : s.p.state) R = std::min(R, b.R);
+  Assembly a;
+  a.particles = s.p;
+  a.cell = s.cell;
+  a.material = s.material;
+  a.bonds = s.bonds;
+  a.contacts = s.contacts;
+  a.motion = s.motion;
+  a.list = VerletList(std::max(0.0, activation_gap(a.material.contact)), 0.1 * R);
+  return a;
+}
+
+/// Share `safety` of the stable step of a scene [s].
+inline double stable_time_step(const Scene& s, double safety)
+{
+  Assembly a = assembly_of(s);
+  return stable_time_step(a, {StepRule::eigenvalue, safety});
+}
 
 } // namespace mergel::dem::test

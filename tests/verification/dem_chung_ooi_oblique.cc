@@ -139,7 +139,7 @@ double turn(const Impact& c)
 }
 
 /// Spins of tests 6 to 8 [rad/s].
-const std::vector<double> spins{0.175, 0.5, 0.9, 1.3, 2.0, 3.0, 4.0, 5.0, 9.0, 22.0};
+const std::vector<double> spins_tried{0.175, 0.5, 0.9, 1.3, 2.0, 3.0, 4.0, 5.0, 9.0, 22.0};
 
 } // namespace
 
@@ -243,7 +243,7 @@ TEST_CASE("Chung and Ooi 6: a spinning particle that hits a plane sticks and sli
 {
   std::vector<Impact> table;
   for (const Solid& solid : {aluminium, nylon})
-    for (const double spin : spins)
+    for (const double spin : spins_tried)
       table.push_back(impact_of(solid, 0.4, {0.1, solid.rho, 0.2, 0.0, spin}));
   check_table(table);
   check_sliding(table, exact);
@@ -255,7 +255,7 @@ TEST_CASE("Chung and Ooi 7: two equal particles of equal spin stick and slide by
 {
   std::vector<Impact> table;
   for (const Solid& solid : {aluminium, copper})
-    for (const double spin : spins) {
+    for (const double spin : spins_tried) {
       const auto ball = [&](double v_n, double w) {
         return Ball{0.1, solid.rho, v_n, 0.0, w};
       };
@@ -281,7 +281,7 @@ TEST_CASE(
 {
   std::vector<Impact> table;
   for (const Solid& solid : {aluminium, nylon}) // the large one 1000 times as dense
-    for (const double spin : spins)
+    for (const double spin : spins_tried)
       table.push_back(impact_of(solid, 0.4, {0.1, solid.rho, 0.2, 0.0, spin},
                                 Ball{0.5, 1000.0 * solid.rho}));
   check_table(table);
@@ -296,7 +296,7 @@ TEST_CASE(
   // In test 8 the large particle is practically fixed; here both move and both spin.
   std::vector<Impact> table;
   for (const Solid& solid : {aluminium, nylon})
-    for (const double spin : spins)
+    for (const double spin : spins_tried)
       table.push_back(impact_of(solid, 0.4, {0.1, solid.rho, 0.2, 0.0, spin},
                                 Ball{0.2, solid.rho, 0.0, 0.0, 0.5 * spin}));
   check_table(table);

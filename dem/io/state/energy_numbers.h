@@ -26,4 +26,13 @@ void append_energies(Numbers& to, const std::string& of, Balance& e)
                        {of + "damping [J]", &e.damping}});
 }
 
+/// Append what an energy alarm knows.
+template <class Numbers, class Alarm>
+void append_alarm(Numbers& to, Alarm& a)
+{
+  to.insert(to.end(), {{"energy error of the last record [-]", &a.before},
+                       {"energy error of the alarm [-]", &a.first_error},
+                       {"time of the alarm [s]", &a.first_time}});
+}
+
 } // namespace mergel::dem

@@ -3,6 +3,8 @@
 #include "dem/io/state/state_rows.h"
 #include "dem/pairs/bond_record.h"
 
+#include <algorithm>
+
 namespace mergel::dem {
 
 namespace {
@@ -16,6 +18,7 @@ void save_particles(State& state, const Particles& p)
   std::vector<std::uint32_t> number;
   std::vector<double> states, load;
   std::vector<std::int32_t> n_bonds;
+  std::vector<double> mass_factor;
   p.for_owned([&](Index i) {
     const ParticleState& b = p.state[i];
     number.push_back(i);
@@ -24,11 +27,13 @@ void save_particles(State& state, const Particles& p)
     append(load, p.load[i].f);
     append(load, p.load[i].t);
     n_bonds.push_back(p.n_bonds[i]);
+    if (!p.mass_factor.empty()) mass_factor.push_back(p.mass_factor[i]);
   });
   state.add("grains", std::move(number));
   state.add("grain_bodies", std::move(states), state_columns);
   state.add("grain_loads", std::move(load), load_columns);
   state.add("grain_bonds", std::move(n_bonds));
+  if (!p.mass_factor.empty()) state.add("grain_mass_factors", std::move(mass_factor));
 }
 
 Particles load_particles(const State& state)
@@ -57,6 +62,12 @@ Particles load_particles(const State& state)
     p.load[i].f = vec_at(load, k * load_columns);
     p.load[i].t = vec_at(load, k * load_columns + 3);
     p.n_bonds[i] = n_bonds[k];
+  }
+  if (state.has("grain_mass_factors")) {
+    const auto& factors = state.get_rows<double>("grain_mass_factors", n);
+    for (const std::size_t k : order) p.mass_factor.push_back(factors[k]);
+    if (!std::all_of(factors.begin(), factors.end(), [](double f) { return f >= 1.0; }))
+      State::refuse("grain_mass_factors", "has a factor below 1");
   }
   return p;
 }

@@ -74,9 +74,35 @@ TEST_CASE("Without any stiffness the time step has no limit", "[unit][dem]")
 {
   Scene s;
   s.p.add(sphere({0, 0, 0}, 1e-2));
-  const StiffnessSums sums = stiffness_sums(s.material, s.cell, s.p, s.bonds, s.contacts);
-  CHECK(time_step(sums, s.p, 0.7, {Vec3::Zero(), 0.7, false}) ==
-        std::numeric_limits<double>::infinity());
+  s.motion.damping = 0.7;
+  CHECK(stable_time_step(s, 0.7) == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE(
+    "The inertia factor slows spins and keeps the energy balance; translations do not "
+    "know it",
+    "[unit][dem]")
+{
+  Particles p;
+  p.add(sphere({0, 0, 0}, 1e-2));
+  p.load[0].f = {1e-2, 0.0, 0.0};
+  p.load[0].t = {0.0, 2e-5, 0.0};
+  Motion motion;
+  motion.damping = 0.0;
+  motion.free_rotation = true;
+  motion.inertia_factor = 3.0;
+  KickWork work;
+  const double dt = 1e-3;
+  kick(p, motion, dt, work);
+  const ParticleState& b = p.state[0];
+  CHECK(b.v.x() == Approx(dt * 1e-2 / b.m));
+  CHECK(b.omega.y() == Approx(dt * 2e-5 / (3.0 * b.inertia())));
+  const double spin = 0.5 * dt * 2e-5 * b.omega.y(); // work of the torque
+  const double moving = 0.5 * b.m * b.v.squaredNorm();
+  CHECK(kinetic_energy(p, motion) == Approx(moving + spin));
+  motion.free_rotation = false; // the spin that is lost is that energy
+  kick(p, motion, dt, work);
+  CHECK(work.rotation_constraint.value() == Approx(spin));
 }
 
 TEST_CASE("A particle that turns more than 0.05 rad in a step stops the run and is named",

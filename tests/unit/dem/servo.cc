@@ -13,7 +13,7 @@ TEST_CASE(
 {
   // d sigma/dt = m M rate + disturbance. With proportional and integral control a double
   // pole (m = 1/4) overshoots by exp(-2) = 13.5 %, a stiffer cell by less. 400 steps are
-  // 16 tau.
+  // 40 tau.
   const double M = 1e9, dt = 1e-7;
   for (const double m : {0.25, 1.0}) {
     Servo servo;

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <sstream>
 #include <unistd.h>
@@ -199,13 +200,39 @@ TEST_CASE("Far-field output is written complete under its name, without other fi
   CHECK_THROWS_WITH(field.write_vtu(folder / "far_field.vtu"), Catch::Contains("writable"));
 }
 
-TEST_CASE("Wall stiffness on the interface lowers the stable time step", "[unit][fem]")
+TEST_CASE("The amplitudes of a far field give its symmetric stiffness, and J^T is the "
+          "transpose of its interface motion",
+          "[unit][fem]")
 {
   const FarField field(small_chamber());
-  const std::size_t n = field.interface().x.size();
-  const double alone = field.stable_time_step();
-  CHECK(field.stable_time_step(std::vector<double>(n, 0.0)) == Approx(alone));
-  CHECK(field.stable_time_step(std::vector<double>(n, 1e8)) < 0.9 * alone);
-  CHECK_THROWS_AS(field.stable_time_step(std::vector<double>(n + 1, 0.0)),
-                  std::invalid_argument);
+  const std::size_t n = field.n_amplitudes();
+  const std::vector<Vec3> none(field.interface().x.size(), Vec3::Zero());
+  const auto draw = [](std::size_t size, double phase) { // any vector
+    std::vector<double> y(size);
+    for (std::size_t k = 0; k < size; ++k)
+      y[k] = std::sin(phase + 1.3 * double(k * k % 97));
+    return y;
+  };
+  const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  };
+  const std::vector<double> a = draw(n, 0.1), b = draw(n, 0.7);
+  std::vector<double> Aa(n), Ab(n);
+  field.multiply(a, none, Aa);
+  field.multiply(b, none, Ab);
+  CHECK(dot(a, Aa) > 0.0);
+  CHECK(dot(b, Aa) == Approx(dot(a, Ab)).epsilon(1e-12));
+
+  // f.(J a) = a.(J^T f), for any forces on the interface nodes.
+  const std::vector<double> numbers = draw(3 * none.size(), 0.4);
+  std::vector<Vec3> f, u;
+  for (std::size_t k = 0; k < none.size(); ++k)
+    f.emplace_back(numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]);
+  std::vector<double> of_f(n);
+  field.multiply(std::vector<double>(n, 0.0), f, of_f);
+  field.interface_motion(a, u);
+  REQUIRE(u.size() == f.size());
+  double work = 0.0;
+  for (std::size_t k = 0; k < f.size(); ++k) work += f[k].dot(u[k]);
+  CHECK(dot(a, of_f) == Approx(work).epsilon(1e-12));
 }

@@ -1,0 +1,24 @@
+/// Keys of section `Motion` that every job with a particle assembly has.
+#pragma once
+
+#include "apps/case/case_file.h"
+#include "dem/assembly/mass_scaling.h"
+#include "dem/assembly/timestep.h"
+
+namespace mergel::apps {
+
+/// How particles move, and in which steps. Borrowed from the case.
+struct MotionKeys {
+  bool& free_rotation;
+  dem::StepSpec& step;
+  double& inertia_factor;
+  dem::MassScalingSpec& mass_scaling;
+};
+
+/// Declare them in the open section `Motion`.
+void declare(CaseFile& file, const MotionKeys& keys);
+
+/// Set the safety that follows from the rule of the step.
+void complete(CaseFile& file, const MotionKeys& keys);
+
+} // namespace mergel::apps
