@@ -53,11 +53,11 @@ Installation::Installation(const PileCase& c, coupling::CoupledSystem& coupled,
 
 void Installation::begin()
 {
-  start_ = coupled_.energy_balances();
   coupled_.assembly.rigid_walls.push_back(make_pile(case_));
   coupled_.assembly.list.invalidate();
   dem::add_forces(coupled_.assembly, 0.0);
   coupled_.look_at_time_step();
+  start_ = coupled_.energy_balances(); // a flat tip may press on particles where it stands
   count_bonds();
   frame();
   n_frames_ = 1;
