@@ -64,11 +64,6 @@ void declare_far_field(CaseFile& file, CoupledCase& c)
       "mm");
 }
 
-MotionKeys motion_keys(CoupledCase& c)
-{
-  return {c.free_rotation, c.step, c.inertia_factor, c.mass_scaling};
-}
-
 void declare_motion(CaseFile& file, CoupledCase& c)
 {
   const auto section = file.section("Motion");

@@ -15,6 +15,13 @@ struct MotionKeys {
   dem::MassScalingSpec& mass_scaling;
 };
 
+/// Those of a case, which has them under these names.
+template <class Case>
+MotionKeys motion_keys(Case& c)
+{
+  return {c.free_rotation, c.step, c.inertia_factor, c.mass_scaling};
+}
+
 /// Declare them in the open section `Motion`.
 void declare(CaseFile& file, const MotionKeys& keys);
 

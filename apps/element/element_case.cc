@@ -65,11 +65,6 @@ void declare_loading(CaseFile& file, ElementCase& c)
       "this fraction of the way made.");
 }
 
-MotionKeys motion_keys(ElementCase& c)
-{
-  return {c.free_rotation, c.step, c.inertia_factor, c.mass_scaling};
-}
-
 void declare_motion(CaseFile& file, ElementCase& c)
 {
   const auto section = file.section("Motion");
