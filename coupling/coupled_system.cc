@@ -39,7 +39,7 @@ CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>
   dem::distribute(assembly, comm);
   dem::add_forces(assembly, 0.0); // at dt = 0 histories do not change
   dem::scale_masses(assembly, spec.mass_scaling);
-  look_at_time_step();
+  find_time_step();
   dt_before = dt;
 }
 
@@ -56,7 +56,7 @@ double CoupledSystem::largest_damping(const StructureSystem& system) const
   return std::max(assembly.motion.damping, system.damping());
 }
 
-void CoupledSystem::look_at_time_step()
+void CoupledSystem::find_time_step()
 {
   const StructureSystem system = structure_system();
   dem::find_stable_step(stable_step, assembly, step_spec, dt, largest_damping(system),

@@ -91,7 +91,7 @@ struct CoupledSystem {
 
   /// Compute the stable step from the largest frequency of all that acts now, and take the
   /// time step from it. To be called where what takes part has changed. Collective.
-  void look_at_time_step();
+  void find_time_step();
 
   /// Give slow ranks fewer particles. The results do not depend on it, bit for bit.
   /// Collective.

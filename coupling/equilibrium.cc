@@ -134,12 +134,12 @@ void equilibrate(CoupledSystem& coupled, const EquilibriumSpec& spec,
   Settling& settling = coupled.settling;
   if (settling.phase == Settling::Phase::held) {
     coupled.are_structures_held = true;
-    if (settling.n == 0) coupled.look_at_time_step(); // their own stiffness takes no part
+    if (settling.n == 0) coupled.find_time_step(); // their own stiffness takes no part
     relax(coupled, {"settling in held walls", spec, report, after_step});
     coupled.are_structures_held = false;
     const WallMotion motion = settle_structures(coupled);
     if (motion.is_any) follow_walls(coupled, motion);
-    coupled.look_at_time_step();
+    coupled.find_time_step();
     settling = {Settling::Phase::free, 0};
   }
   if (settling.phase == Settling::Phase::free) {

@@ -56,7 +56,7 @@ void Installation::begin()
   coupled_.assembly.rigid_walls.push_back(make_pile(case_));
   coupled_.assembly.list.invalidate();
   dem::add_forces(coupled_.assembly, 0.0);
-  coupled_.look_at_time_step();
+  coupled_.find_time_step();
   start_ = coupled_.energy_balances(); // a flat tip may press on particles where it stands
   count_bonds();
   frame();

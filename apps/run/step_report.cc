@@ -36,7 +36,7 @@ void add_step(Summary& summary, const dem::StableStep& stable, double dt)
   summary.number("time step [s]", dt);
   summary.number("stable step [s]", stable.limit);
   summary.text("the step is ruled by", dem::what_rules(stable));
-  summary.count("looks at the largest frequency [-]", stable.n_looks);
+  summary.count("evaluations of the largest frequency [-]", stable.n_evaluations);
 }
 
 void add_mass_scaling(Summary& summary, const dem::Particles& p)

@@ -46,8 +46,9 @@ public:
       m.translation *= root_m_;
       m.rotation *= root_m_;
     }
+    if (system_) scale_ = std::max(scale_, frequency2_of_walls());
+    per_scale_ = 1.0 / (scale_ * root_m_ * root_m_);
     if (!system_) return;
-    scale_ = std::max(scale_, frequency2_of_walls());
     for (const Wall& w : assembly.walls) {
       u_nodes_.emplace_back(w.x.size(), Vec3::Zero());
       f_nodes_.emplace_back(w.x.size());
@@ -128,11 +129,10 @@ public:
     for (const WallSpring& k : springs_.walls) add(k);
 
     Amplitudes z = zero();
-    const double per_scale = 1.0 / (scale_ * root_m_ * root_m_);
     moved_.for_owned([&](Index i) {
       const Load& load = moved_.load[i];
-      z.particles[i] = {per_scale * mobility_[i].translation * load.f,
-                        per_scale * mobility_[i].rotation.cwiseProduct(load.t)};
+      z.particles[i] = {per_scale_ * mobility_[i].translation * load.f,
+                        per_scale_ * mobility_[i].rotation.cwiseProduct(load.t)};
     });
     if (system_) multiply_system(y, z);
     return z;
@@ -191,10 +191,9 @@ private:
     moved_.load[k.particle].f -= f;
     moved_.load[k.particle].t -= k.arm * k.k_s * k.n.cross(u_s);
     if (is_held) return;
-    const double unit = 1.0 / (scale_ * root_m_ * root_m_);
     const Triangle& t = assembly_.walls[k.wall].topology.triangles[uz(k.at.triangle)];
     for (int c = 0; c < 3; ++c)
-      f_nodes_[k.wall][uz(t[uz(c)])].add(unit * k.at.weight[c] * f);
+      f_nodes_[k.wall][uz(t[uz(c)])].add(per_scale_ * k.at.weight[c] * f);
   }
 
   void multiply_system(const Amplitudes& y, Amplitudes& z)
@@ -218,6 +217,7 @@ private:
   const WallSystem* system_;
   std::vector<Mobility> mobility_; ///< in units of the largest mass
   double root_m_ = 0.0;            ///< of the largest mass [kg^1/2]
+  double per_scale_ = 0.0;         ///< 1/(scale root_m^2) [s^2/kg]
   Particles moved_; ///< velocities and spins are the motions, loads resist them
   Ghosts ghosts_;
   std::vector<std::vector<Vec3>> u_nodes_;

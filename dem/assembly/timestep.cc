@@ -13,7 +13,7 @@ namespace {
 
 /// Steps after which the frequency may be computed again because another particle has become
 /// the stiffest one.
-constexpr std::size_t steps_between_early_looks = 1000;
+constexpr std::size_t steps_between_early_evaluations = 1000;
 /// Growth of the stiffness at moving walls after which the frequency is computed again.
 constexpr double noticeable_growth = 1.1;
 
@@ -56,12 +56,13 @@ double stable(double omega2, double damping)
 }
 
 void find_stable_step(StableStep& step, const Assembly& assembly, const StepSpec& spec,
-                      const Springs& springs, double damping, const WallSystem* system)
+                      const Springs& springs, const StiffestParticle& stiffest,
+                      double damping, const WallSystem* system)
 {
-  step.stiffest = block_bound(assembly, springs);
+  step.stiffest = stiffest;
   step.bound2 = step.omega2 = step.stiffest.omega2;
   step.stiffest_then = step.stiffest.id;
-  ++step.n_looks;
+  ++step.n_evaluations;
   step.largest_rise = 1.0;
   step.wall_stiffness = stiffness_of_walls(assembly, springs);
   const double scale = step.bound2 > 0.0 ? step.bound2 : 1.0;
@@ -81,8 +82,9 @@ void find_stable_step(StableStep& step, Assembly& assembly, const StepSpec& spec
                       double damping, const WallSystem* system)
 {
   const auto with = [&](double dt_ahead) {
-    find_stable_step(step, assembly, spec, present_springs(assembly, dt_ahead, system),
-                     damping, system);
+    const Springs springs = present_springs(assembly, dt_ahead, system);
+    find_stable_step(step, assembly, spec, springs, block_bound(assembly, springs), damping,
+                     system);
   };
   if (!(dt > 0.0)) with(0.0);
   with(dt > 0.0 ? dt : spec.safety * step.limit);
@@ -93,21 +95,24 @@ void update_stable_step(StableStep& step, Assembly& assembly, const StepSpec& sp
                         const WallSystem* system)
 {
   const Springs springs = present_springs(assembly, dt, system);
-  const bool is_due = n_steps > 0 && n_steps % steps_between_looks == 0;
+  const StiffestParticle stiffest = block_bound(assembly, springs);
+  const bool is_due = n_steps > 0 && n_steps % steps_between_evaluations == 0;
   const bool is_first_spring = step.bound2 == 0.0;
   const bool are_walls_stiffer =
       has_motion(system) &&
       stiffness_of_walls(assembly, springs) > noticeable_growth * step.wall_stiffness;
-  if (is_due || is_first_spring || are_walls_stiffer)
-    return find_stable_step(step, assembly, spec, springs, damping, system);
-  step.stiffest = block_bound(assembly, springs);
+  const auto again = [&] {
+    find_stable_step(step, assembly, spec, springs, stiffest, damping, system);
+  };
+  if (is_due || is_first_spring || are_walls_stiffer) return again();
+  step.stiffest = stiffest;
   // Its ratio of frequency and bound may be nearer to 1 than that of the one before. While
-  // rock is crushed this happens often, and a look costs as much as some 30 steps.
+  // rock is crushed this happens often, and the iteration costs as much as some 30 steps.
   const bool is_other = step.stiffest.id != step.stiffest_then;
   const double s2 = std::min(1.0, spec.safety * spec.safety);
   const bool may_be_unstable = s2 * step.stiffest.omega2 > step.omega2 * step.largest_rise;
-  if (is_other && may_be_unstable && n_steps % steps_between_early_looks == 0)
-    return find_stable_step(step, assembly, spec, springs, damping, system);
+  if (is_other && may_be_unstable && n_steps % steps_between_early_evaluations == 0)
+    return again();
   step.largest_rise = std::max(step.largest_rise, step.stiffest.omega2 / step.bound2);
   step.limit = stable(step.omega2 * step.largest_rise, damping);
 }

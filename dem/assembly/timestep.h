@@ -11,7 +11,7 @@ namespace mergel::dem {
 
 /// Where the stable step comes from.
 enum class StepRule {
-  eigenvalue, ///< the largest frequency of the system, guarded by a bound between two looks
+  eigenvalue, ///< the largest frequency of the system, guarded by a bound between two evaluations
   block_bound ///< the bound of the particles alone: smaller steps, mostly no iteration
 };
 
@@ -26,7 +26,7 @@ inline constexpr double largest_safety = 1.5;
 /// Steps after which the bound, and what else costs more than a step, is evaluated again.
 inline constexpr std::size_t steps_between_step_checks = 100;
 /// Steps after which the largest frequency is computed again.
-inline constexpr std::size_t steps_between_looks = 5000;
+inline constexpr std::size_t steps_between_evaluations = 5000;
 
 struct StepSpec {
   StepRule rule = StepRule::eigenvalue;
@@ -37,20 +37,20 @@ struct StepSpec {
 struct StableStep {
   double limit =
       0.0; ///< stable step by the rule, with damping; infinite without springs [s]
-  double omega2 = 0.0;         ///< squared largest frequency at the last look [1/s^2]
+  double omega2 = 0.0;         ///< squared largest frequency at the last evaluation [1/s^2]
   double bound2 = 0.0;         ///< block bound then [1/s^2]
   double largest_rise = 1.0;   ///< of the block bound since then [-], >= 1
   double wall_stiffness = 0.0; ///< of contacts and bonds with the system of the walls then,
                                ///< sum [N/m]
   StiffestParticle stiffest;   ///< at the last evaluation
-  std::uint64_t stiffest_then = 0; ///< its id at the last look
-  std::uint64_t n_looks = 0;       ///< so far
+  std::uint64_t stiffest_then = 0; ///< its id at the last evaluation
+  std::uint64_t n_evaluations = 0; ///< so far
 };
 
-/// A look: compute the stable step from the largest frequency of the present state. Rebuilds
-/// the lists if need be. Collective.
+/// Compute the stable step from the largest frequency of the present state. Rebuilds the lists
+/// if need be. Collective.
 /// @param dt present step [s]: contacts count that may close until the next check. 0 where
-///   there is none yet: then a first look finds it. Where nothing acts at all, all contacts
+///   there is none yet: then a first evaluation finds it. Where nothing acts at all, all contacts
 ///   count that are nearly closed
 /// @param damping the largest local damping of particles and structures [-]
 /// @param system what moves the triangulated walls; null: nothing does
@@ -58,10 +58,11 @@ void find_stable_step(StableStep& step, Assembly& assembly, const StepSpec& spec
                       double damping, const WallSystem* system = nullptr);
 
 /// What is done every steps_between_step_checks steps: the stable step falls as the block
-/// bound rises above that of the last look, and does not grow. Looks again every
-/// steps_between_looks steps, where another particle has become the stiffest one, for whose
-/// motions the ratio of frequency and bound is another, and where the springs to the system
-/// of the walls have become stiffer by a tenth. Collective.
+/// bound rises above that of the last evaluation of the largest frequency, and does not
+/// grow. Evaluates that again every steps_between_evaluations steps, where another particle
+/// has become the stiffest one, for whose motions the ratio of frequency and bound is
+/// another, and where the springs to the system of the walls have become stiffer by a
+/// tenth. Collective.
 /// @param n_steps of the run
 void update_stable_step(StableStep& step, Assembly& assembly, const StepSpec& spec,
                         std::size_t n_steps, double dt, double damping,

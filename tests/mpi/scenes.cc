@@ -217,7 +217,7 @@ void run(const std::string& name, const Options& o)
   apps::WorkingAssembly w = make(name);
   weaken(w.assembly, 1e8);
   // The largest frequency is computed again in the middle of the run, after the first stop.
-  const auto n_before = w.n_steps = steps_between_looks - n_steps / 2;
+  const auto n_before = w.n_steps = steps_between_evaluations - n_steps / 2;
   Servo servo;
   if (!o.restart.empty()) restore(w, servo, o.restart);
   if (name == "varied")

@@ -42,7 +42,7 @@ struct Chamber {
     assembly.particles.add(b);
   }
 
-  dem::StableStep look()
+  dem::StableStep stable_step()
   {
     dem::StableStep step;
     dem::find_stable_step(step, assembly, {}, 0.0, 0.0, &system);
@@ -59,7 +59,7 @@ TEST_CASE("the step of an elastic far field that no particle touches is its own"
   c.add({0.0, 2e-3, -5e-3}, 0.5e-3);
   const double alone = c.far_field.far_field().stable_time_step();
   // Both by Lanczos: to 1e-6 and, here, until two products raise omega^2 by less than 1e-4.
-  CHECK(c.look().limit == Approx(alone).epsilon(1e-3));
+  CHECK(c.stable_step().limit == Approx(alone).epsilon(1e-3));
 }
 
 TEST_CASE(
@@ -72,7 +72,7 @@ TEST_CASE(
   Chamber c(E);
   const double floor = -small_chamber().region_height;
   c.add({0.5e-3, 2.1e-3, floor + R - 1e-6}, R);
-  const dem::StableStep step = c.look();
+  const dem::StableStep step = c.stable_step();
   const double k_n = E * dem::pi * R, m = c.assembly.particles.state[0].m;
   const double held = k_n / m;
   CAPTURE(step.omega2 / held);

@@ -1,4 +1,4 @@
-// How the stable step of a run is guarded between two looks.
+// How the stable step of a run is guarded between two evaluations.
 #include "dem/assembly/step.h"
 #include "tests/support/dem_scene.h"
 
@@ -34,8 +34,9 @@ void set_modulus(Assembly& a, double factor)
 
 } // namespace
 
-TEST_CASE("Between two looks the stable step falls with the block bound and does not grow",
-          "[unit][dem]")
+TEST_CASE(
+    "Between two evaluations the stable step falls with the block bound and does not grow",
+    "[unit][dem]")
 {
   Assembly a = row(6);
   const StepSpec spec;
@@ -51,14 +52,14 @@ TEST_CASE("Between two looks the stable step falls with the block bound and does
   set_modulus(a, 0.25);
   update_stable_step(step, a, spec, 200, dt, 0.7);
   CHECK(step.limit == Approx(first / 1.5).epsilon(1e-12));
-  update_stable_step(step, a, spec, steps_between_looks, dt, 0.7); // a look
+  update_stable_step(step, a, spec, steps_between_evaluations, dt, 0.7); // is due
   CHECK(step.limit == Approx(2.0 * first).epsilon(1e-12));
   CHECK(step.largest_rise == 1.0);
 }
 
 TEST_CASE(
     "The step of the block bound is below the eigenvalue's, by up to a third, and needs "
-    "no look to follow the bound",
+    "no iteration to follow the bound",
     "[unit][dem]")
 {
   Assembly a = row(6);
@@ -88,7 +89,7 @@ TEST_CASE("Where nothing acts the step has no limit, until the first contact is 
   CHECK(what_rules(step) == "nothing");
   a.particles.state[1].x.x() = 1.99 * R;
   a.list.invalidate();
-  // 300 is no multiple of the steps between two looks.
+  // 300 is no multiple of the steps between two evaluations.
   update_stable_step(step, a, {}, 300, 1e-7, 0.0);
   CHECK(step.omega2 > 0.0);
   CHECK(std::isfinite(step.limit));
@@ -101,17 +102,17 @@ TEST_CASE("Where another particle becomes the stiffest, the frequency is compute
   const StepSpec spec{StepRule::eigenvalue, 1.0};
   StableStep step;
   find_stable_step(step, a, spec, 0.0, 0.0);
-  const std::uint64_t n = step.n_looks, id = step.stiffest.id;
+  const std::uint64_t n = step.n_evaluations, id = step.stiffest.id;
   const double limit = step.limit;
   update_stable_step(step, a, spec, 1000, 1e-7, 0.0);
-  CHECK(step.n_looks == n);
+  CHECK(step.n_evaluations == n);
   a.particles.state[id == 5 ? 4 : 5].m *= 0.1;        // at the end, or beside it
   update_stable_step(step, a, spec, 1900, 1e-7, 0.0); // not yet: at every 1000th step
-  CHECK(step.n_looks == n);
+  CHECK(step.n_evaluations == n);
   CHECK(step.limit < 0.9 * limit);
   update_stable_step(step, a, spec, 2000, 1e-7, 0.0);
   CHECK(step.stiffest.id != id);
-  CHECK(step.n_looks == n + 1);
+  CHECK(step.n_evaluations == n + 1);
   StableStep anew;
   find_stable_step(anew, a, spec, 0.0, 0.0);
   CHECK(step.limit == Approx(anew.limit).epsilon(1e-12));
