@@ -104,6 +104,12 @@ void add_own_forces(Assembly& assembly, double dt, Lap&& lap)
 
 void add_forces(Assembly& assembly, double dt)
 {
+  clear_loads(assembly.particles);
+  add_forces_to_cleared(assembly, dt);
+}
+
+void add_forces_to_cleared(Assembly& assembly, double dt)
+{
   Particles& p = assembly.particles;
   double from = wall_clock();
   const auto lap = [&from](double& part) {
@@ -115,7 +121,6 @@ void add_forces(Assembly& assembly, double dt)
   lap(assembly.times.exchange);
   for (Wall& w : assembly.walls) update_normals(w);
   if (lists_are_stale(assembly)) rebuild_lists(assembly); // walls are the same on all ranks
-  clear_loads(p);
   assembly.losses.virial.clear();
   lap(assembly.times.lists);
 

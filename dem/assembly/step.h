@@ -14,6 +14,8 @@ namespace mergel::dem {
 ///   not possible. On several ranks without walls and strain-controlled cell this happens
 ///   in the next advance().
 void add_forces(Assembly& assembly, double dt);
+/// The same where kick_and_drift() has left the loads at zero.
+void add_forces_to_cleared(Assembly& assembly, double dt);
 
 /// Rebuild all lists for the present positions, stale or not. Changes no force.
 void rebuild_lists(Assembly& assembly);
@@ -79,7 +81,7 @@ void advance(Assembly& assembly, double dt_before, double dt, MoveWalls&& move_w
     assembly.cell_work.add(0.5 * dt_kick * (cell_before + cell_power(assembly)));
     assembly.list.add_strain(strain(assembly.cell, dt, assembly.particles));
   }
-  add_forces(assembly, dt);
+  add_forces_to_cleared(assembly, dt);
 }
 
 } // namespace mergel::dem

@@ -108,8 +108,9 @@ contact_step(const LinearMaterial& c, const ContactSides<Real>& sides, const Rea
   const auto slides = trial2 > f_max * f_max; // an open contact has f_max = 0
   if (any(slides)) {
     const Real s = f_max / sqrt(select(slides, trial2, Real{} + 1.0));
-    const Real loss = (1.0 - s) * 0.5 / k.k_s * (dot(by.f_s_old, out.f_s) + s * trial2);
-    const Real stored = dot(by.f_s_old, by.f_s_old) * 0.5 / k.k_s;
+    const Real compliance = 0.5 / k.k_s;
+    const Real loss = (1.0 - s) * compliance * (dot(by.f_s_old, out.f_s) + s * trial2);
+    const Real stored = dot(by.f_s_old, by.f_s_old) * compliance;
     out.slip_loss = select(slides, select(active, loss, stored), Real{});
     out.f_s = select(slides, out.f_s * s, out.f_s);
   }

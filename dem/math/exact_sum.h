@@ -45,10 +45,11 @@ public:
   ExactWide& raw() { return sum_; } ///< in quanta; for the sums over ranks
   const ExactWide& raw() const { return sum_; }
 
-private:
-  static constexpr double scale =
+  static constexpr double scale = ///< quanta per unit
       static_cast<double>(std::uint64_t{1} << (exponent / 2)) *
       static_cast<double>(std::uint64_t{1} << (exponent - exponent / 2));
+
+private:
   ExactWide sum_ = 0;
 };
 

@@ -32,6 +32,23 @@ using Mask = decltype(Lanes{} < Lanes{});
 /// Four numbers of one record.
 using Row [[gnu::vector_size(4 * sizeof(double))]] = double;
 
+/// Two rows of one record, one after the other.
+using TwoRows [[gnu::vector_size(8 * sizeof(double))]] = double;
+
+/// The result of a comparison of two V, and its number of lanes.
+template <class V>
+using MaskOf = decltype(V{} < V{});
+template <class V>
+inline constexpr int n_lanes_of = sizeof(V) / sizeof(double);
+
+/// Without the sign.
+template <class V>
+V magnitude(const V& a)
+{
+  const auto sign = reinterpret_cast<MaskOf<V>>(-V{}); // -0.0: the sign bit alone
+  return reinterpret_cast<V>(reinterpret_cast<MaskOf<V>>(a) & ~sign);
+}
+
 inline Lanes sqrt(Lanes a)
 {
 #if defined(__AVX512DQ__)
@@ -48,21 +65,39 @@ inline double sqrt(double a)
   return std::sqrt(a);
 }
 
-inline bool any(Mask m)
+/// Whether a lane of a mask of any width is set.
+template <class M>
+requires(sizeof(M) > sizeof(double)) bool any(const M& m)
 {
-#if defined(__AVX512DQ__)
-  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(m)) != 0;
-#elif defined(__AVX__)
-  return _mm256_movemask_pd(reinterpret_cast<__m256d>(m)) != 0;
-#else
-  long long all = 0;
-  for (int k = 0; k < n_lanes; ++k) all |= m[k];
-  return all != 0;
+#ifdef __AVX512DQ__
+  if constexpr (sizeof(M) == sizeof(__m512i))
+    return _mm512_movepi64_mask(reinterpret_cast<__m512i>(m)) != 0;
 #endif
+#ifdef __AVX__
+  if constexpr (sizeof(M) == sizeof(__m256d))
+    return _mm256_movemask_pd(reinterpret_cast<__m256d>(m)) != 0;
+  if constexpr (sizeof(M) == 2 * sizeof(__m256d))
+    return any(__builtin_shufflevector(m, m, 0, 1, 2, 3) |
+               __builtin_shufflevector(m, m, 4, 5, 6, 7));
+#endif
+  long long all = 0;
+  for (unsigned k = 0; k < sizeof(M) / sizeof(double); ++k) all |= m[k];
+  return all != 0;
 }
 inline bool any(bool m)
 {
   return m;
+}
+
+/// The mask of the lanes whose bits are set, the first lane in the lowest bit.
+inline Mask lanes_of(unsigned bits)
+{
+#ifdef __AVX512DQ__
+  const Mask bit{1, 2, 4, 8, 16, 32, 64, 128};
+#else
+  const Mask bit{1, 2, 4, 8};
+#endif
+  return (bit & static_cast<long long>(bits)) != 0;
 }
 
 inline Lanes select(Mask m, Lanes a, Lanes b)
@@ -137,6 +172,17 @@ inline void rows(Lanes a, Lanes b, Lanes c, Lanes d, Row (&r)[n_lanes])
     r[k] = group[k];
 #endif
   }
+}
+
+/// Three columns to one row per lane, whose fourth number is 0.
+inline void rows(Lanes a, Lanes b, Lanes c, Row (&r)[n_lanes])
+{
+  Lanes zero{};
+#ifdef __AVX512DQ__
+  // GCC 12.2 takes c beside a zero that it knows for c beside c (vmovddup).
+  asm("" : "+x"(zero));
+#endif
+  rows(a, b, c, zero, r);
 }
 
 /// A vector of the kernel: three numbers of type double or Lanes.

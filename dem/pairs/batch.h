@@ -47,7 +47,7 @@ struct Rows {
   const Triple<Lanes> t_i = nF * k.a_i + M, t_j = nF * k.a_j - M;
   Rows r;
   const auto set = [](Row(&out)[n_lanes], const Triple<Lanes>& a) {
-    rows(a.x, a.y, a.z, Lanes{}, out);
+    rows(a.x, a.y, a.z, out);
   };
   set(r.f, F);
   set(r.t_i, t_i);
@@ -98,6 +98,19 @@ struct Batch {
   return q;
 }
 
+/// The pairs that count on this rank: those that are no padding and whose first particle it
+/// owns.
+inline Mask counted(const Batch& q, const Particles& p)
+{
+  unsigned bits = (1u << q.count) - 1u;
+  if (p.n_owned() != p.size()) {
+    unsigned owned = 0;
+    for (int l = 0; l < n_lanes; ++l) owned |= static_cast<unsigned>(p.owns(q.i[l])) << l;
+    bits &= owned;
+  }
+  return lanes_of(bits);
+}
+
 inline void shift_images(const std::vector<Pair>& pairs, const std::size_t* which,
                          std::size_t first, const Batch& q, const PeriodicCell& cell,
                          Triple<Lanes>& x)
@@ -122,7 +135,11 @@ inline void shift_images(const std::vector<Pair>& pairs, const std::size_t* whic
   j.v += {r.x * rate.x(), r.y * rate.y(), r.z * rate.z()};
 }
 
-inline void prefetch(const Particles& p, Index j)
+/// Pairs ahead of the present one whose second particle is fetched.
+inline constexpr std::size_t prefetch_ahead = 16;
+
+/// Inlined, for GCC drops the call of a function that only fetches.
+[[gnu::always_inline]] inline void prefetch(const Particles& p, Index j)
 {
   const char* b = reinterpret_cast<const char*>(&p.state[j]);
   __builtin_prefetch(b);

@@ -9,22 +9,22 @@ namespace mergel::dem {
 
 namespace {
 
-constexpr std::size_t prefetch_ahead = 16;
-
 /// Not inlined, with arguments by value, so that it costs nothing without a
 /// strain-controlled cell. @param r from i to j; @param F force on i
 [[gnu::noinline]] void add_virial(Triple<Lanes> r, Triple<Lanes> F, const Batch& q,
-                                  const Particles& p, PairLosses& losses)
+                                  const Particles& p, LoopLosses& losses)
 {
-  const Triple<Lanes> w{F.x * r.x, F.y * r.y, F.z * r.z};
-  for (int l = 0; l < q.count; ++l)
-    if (p.owns(q.i[l])) losses.virial.add(vec3(lane(w, l)));
+  const Mask counts = counted(q, p);
+  losses.virial_x.add(select(counts, F.x * r.x, Lanes{}));
+  losses.virial_y.add(select(counts, F.y * r.y, Lanes{}));
+  losses.virial_z.add(select(counts, F.z * r.z, Lanes{}));
 }
 
 template <class Strengths, IsBondLaw Law, IsContactLaw Contact>
 void add_bonded_pairs(const Law& law, const Contact& contact_law, const PeriodicCell& cell,
-                      double dt, Particles& p, Bonds& bonds, PairLosses& losses)
+                      double dt, Particles& p, Bonds& bonds, PairLosses& of_all)
 {
+  LoopLosses losses(of_all);
   const Law bond = law; // copies, so that no store below can alias them
   const Contact beside = contact_law;
   const bool is_periodic = cell.is_periodic(),
@@ -52,9 +52,10 @@ void add_bonded_pairs(const Law& law, const Contact& contact_law, const Periodic
 
 template <IsContactLaw Contact>
 void add_other_pairs(const Contact& contact_law, const PeriodicCell& cell, double dt,
-                     Particles& p, Contacts& contacts, PairLosses& losses,
+                     Particles& p, Contacts& contacts, PairLosses& of_all,
                      const std::size_t* which, std::size_t n)
 {
+  LoopLosses losses(of_all);
   const Contact law = contact_law;
   const bool is_periodic = cell.is_periodic(),
              is_strain_controlled = cell.is_strain_controlled;

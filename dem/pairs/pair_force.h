@@ -4,11 +4,22 @@
 
 #include "dem/laws/bond_step.h"
 #include "dem/laws/contact_law.h"
+#include "dem/math/lane_sum.h"
 #include "dem/pairs/batch.h"
 #include "dem/pairs/forces.h"
 #include "dem/pairs/strength.h"
 
 namespace mergel::dem {
+
+/// The losses of a loop over pairs, with those of a batch at a time.
+struct LoopLosses {
+  explicit LoopLosses(PairLosses& of_all) : all(of_all) {}
+
+  PairLosses& all;
+  LaneEnergySum<Lanes> slip{all.slip};
+  LaneEnergySum<Lanes> virial_x{all.virial.x}, virial_y{all.virial.y},
+      virial_z{all.virial.z};
+};
 
 /// Force and moment on i; the opposite acts on j.
 struct PairForce {
@@ -85,27 +96,20 @@ void return_lanes(const Law& law, const BondShape<Lanes>& s, const Lanes& S,
   }
 }
 
-inline void add_slip(const Lanes& loss, const Batch& q, const Particles& p,
-                     PairLosses& losses)
-{
-  if (!any(loss != Lanes{})) return;
-  for (int l = 0; l < q.count; ++l)
-    if (loss[l] != 0.0 && p.owns(q.i[l])) losses.slip.add(loss[l]);
-}
-
 /// The contact of a pair over the step: updates its shear force f_s and counts its slip. The
 /// force on i is f_s - f_n n.
 template <IsContactLaw Contact>
 [[gnu::always_inline]] inline ContactStep<Lanes>
 step_contact(const Contact& law, const Batch& q, const End<Lanes>& i, const End<Lanes>& j,
              const PairMotion<Lanes>& k, Triple<Lanes>& f_s, const Particles& p,
-             PairLosses& losses)
+             LoopLosses& losses)
 {
   const Lanes S = 0.5 * (i.S + j.S);
   const auto contact = contact_step(law, sides_of_pair(i.R, j.R, k.inv_L), S,
                                     {k.gap, k.du_n, k.du_s, rotated_with_contact(f_s, k)});
   f_s = contact.f_s;
-  add_slip(contact.slip_loss, q, p, losses);
+  if (any(contact.slip_loss != Lanes{}))
+    losses.slip.add(select(counted(q, p), contact.slip_loss, Lanes{}));
   return contact;
 }
 
@@ -115,7 +119,7 @@ template <class Strengths, IsBondLaw Law, IsContactLaw Contact>
 [[gnu::always_inline]] inline PairForce
 pair_force(const Law& bond, const Contact& beside, const Batch& q, const End<Lanes>& i,
            const End<Lanes>& j, const PairMotion<Lanes>& k, BondBlock& h, const Pair* pairs,
-           Particles& p, PairLosses& losses)
+           Particles& p, LoopLosses& losses)
 {
   const Lanes r = min(i.R, j.R), S = 0.5 * (i.S + j.S);
   const BondShape<Lanes> shape = bond_shape(bond, r, k.inv_L);
@@ -125,7 +129,7 @@ pair_force(const Law& bond, const Contact& beside, const Batch& q, const End<Lan
   const Mask yields = Strengths::yields(bond, shape, load, q, p) & (h.intact > Lanes{});
   if (any(yields)) {
     const EffectiveLoads<Lanes> old{load.N - shape.k_n * k.du_n, V, M, h.T};
-    return_lanes<Strengths>(bond, shape, S, yields, q, old, load, h, pairs, p, losses);
+    return_lanes<Strengths>(bond, shape, S, yields, q, old, load, h, pairs, p, losses.all);
   }
   const Mask lives = h.intact > Lanes{};
   const Triple<Lanes> zero{};

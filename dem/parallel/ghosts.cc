@@ -74,8 +74,10 @@ void Ghosts::update(Particles& p, const Communicator& comm)
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   for (const Neighbour& q : neighbours_)
-    for (std::size_t k = 0; k < q.receive.size(); ++k)
+    for (std::size_t k = 0; k < q.receive.size(); ++k) {
       unpack(q.in[k], p.state[q.receive[k]]);
+      p.load[q.receive[k]] = Load{}; // partial sums, which nothing reads
+    }
 }
 
 } // namespace mergel::dem

@@ -1,80 +1,89 @@
 #include "dem/particles/integrate.h"
 
-#include "dem/math/simd.h"
+#include "dem/math/lane_sum.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 namespace mergel::dem {
 
 namespace {
 
-Row row(const Vec3& three_of_four) // one row of a record: a vector and a fourth number
+/// The rows of velocity and spin of a particle, with S and m, which are beside each other; and
+/// those of the loads on it.
+constexpr std::size_t velocities = offsetof(ParticleState, v);
+static_assert(offsetof(ParticleState, omega) == velocities + sizeof(Row));
+static_assert(offsetof(Load, t) == sizeof(Row) && sizeof(Load) == sizeof(TwoRows));
+
+TwoRows velocities_of(const ParticleState& b)
 {
-  Row r;
-  std::memcpy(&r, three_of_four.data(), sizeof r);
+  TwoRows r;
+  std::memcpy(&r, reinterpret_cast<const char*>(&b) + velocities, sizeof r);
   return r;
 }
 
-void set_row(Vec3& three_of_four, Row r)
-{
-  std::memcpy(three_of_four.data(), &r, sizeof r);
-}
-
-/// Kick of one row, component by component. Returns the new velocity; `damped` gets the
-/// work of the damping force. A component without force, such as the fourth of a row, keeps
-/// its velocity. There is no branch, because the sign of v cannot be predicted.
-Row kicked(Row v, Row f, double alpha, double dt_over_m, double dt, Row& damped)
-{
-  using Bits = decltype(v < v);
-  const Bits sign = reinterpret_cast<Bits>(-Row{}); // -0.0: the sign bit alone
-  const Row brake = alpha * reinterpret_cast<Row>(reinterpret_cast<Bits>(f) & ~sign);
-  const Bits against = ~reinterpret_cast<Bits>(v) & sign;
-  const Row drag =
-      reinterpret_cast<Row>((reinterpret_cast<Bits>(brake) | against) & (v != Row{}));
-  const Row v_new = v + (f + drag) * dt_over_m;
-  damped = drag * 0.5 * (v + v_new) * dt;
-  return v_new;
-}
-
-/// Kick of one particle, with what is the same for all particles.
-struct Kick {
-  const Motion& motion;
-  Row gravity;
-  double dt;
-  bool has_weight;
-
-  Kick(const Motion& m, double dt_)
-      : motion(m), gravity{m.gravity.x(), m.gravity.y(), m.gravity.z(), 0.0}, dt(dt_),
-        has_weight(m.gravity != Vec3::Zero())
+/// Kick of the particles, with what is the same for all of them. It treats velocity and spin
+/// together, component by component. A component without load, such as the fourth of a row,
+/// keeps its value. There is no branch on signs, because they cannot be predicted.
+class Kick {
+public:
+  Kick(Particles& p, const Motion& motion, double dt, KickWork& work)
+      : p_(p), motion_(motion), dt_(dt), has_weight_(motion.gravity != Vec3::Zero()),
+        work_(work), damping_(work.damping), gravity_(work.gravity)
   {
   }
 
-  void operator()(Particles& p, Index i, KickWork& work) const
+  void operator()(Index i)
   {
-    ParticleState& b = p.state[i];
-    const Load& load = p.load[i];
-    const double alpha = motion.damping;
-    const Vec3 v_old = b.v;
-    Row work_of_damping{};
-    const double weighs = true_mass(p, i);
-    const Row weight = weighs * gravity;
-    set_row(b.v,
-            kicked(row(b.v), row(load.f) + weight, alpha, dt / b.m, dt, work_of_damping));
-    double damped = 0.0 - work_of_damping[0] - work_of_damping[1] - work_of_damping[2];
-    const double I_p = inertia(b, motion);
-    if (spins(p, motion, i)) {
-      set_row(b.omega,
-              kicked(row(b.omega), row(load.t), alpha, dt / I_p, dt, work_of_damping));
-      damped = damped - work_of_damping[0] - work_of_damping[1] - work_of_damping[2];
-    } else if (b.omega != Vec3::Zero()) {
-      work.rotation_constraint.add(0.5 * I_p * b.omega.squaredNorm());
-      b.omega.setZero();
+    ParticleState& b = p_.state[i];
+    TwoRows load;
+    std::memcpy(&load, &p_.load[i], sizeof load);
+    const double I_p = inertia(b, motion_);
+    if (!spins(p_, motion_, i)) {
+      const MaskOf<TwoRows> forces_alone{-1, -1, -1, -1, 0, 0, 0, 0};
+      load =
+          reinterpret_cast<TwoRows>(reinterpret_cast<MaskOf<TwoRows>>(load) & forces_alone);
+      stop_spin(b, I_p);
     }
-    work.damping.add(damped);
-    if (has_weight) work.gravity.add(0.5 * dt * (weighs * motion.gravity).dot(v_old + b.v));
+    const TwoRows v = velocities_of(b);
+    TwoRows weight{};
+    if (has_weight_) {
+      const Vec3 w = true_mass(p_, i) * motion_.gravity;
+      weight = TwoRows{w.x(), w.y(), w.z(), 0.0, 0.0, 0.0, 0.0, 0.0};
+      load += weight;
+    }
+
+    using Bits = MaskOf<TwoRows>;
+    const Bits sign = reinterpret_cast<Bits>(-TwoRows{}); // -0.0: the sign bit alone
+    const TwoRows brake = motion_.damping * magnitude(load);
+    const Bits against = ~reinterpret_cast<Bits>(v) & sign;
+    const TwoRows drag = reinterpret_cast<TwoRows>(
+        (reinterpret_cast<Bits>(brake) | against) & (v != TwoRows{}));
+    const double per_m = dt_ / b.m, per_I = dt_ / I_p;
+    const TwoRows dt_over_m{per_m, per_m, per_m, per_m, per_I, per_I, per_I, per_I};
+    const TwoRows v_new = v + (load + drag) * dt_over_m;
+    const TwoRows mean_motion = 0.5 * dt_ * (v + v_new);
+    damping_.add(-drag * mean_motion);
+    if (has_weight_) gravity_.add(weight * mean_motion);
+    std::memcpy(reinterpret_cast<char*>(&b) + velocities, &v_new, sizeof v_new);
   }
+
+private:
+  void stop_spin(ParticleState& b, double I_p)
+  {
+    if (b.omega == Vec3::Zero()) return;
+    work_.rotation_constraint.add(0.5 * I_p * b.omega.squaredNorm());
+    b.omega.setZero();
+  }
+
+  Particles& p_;
+  const Motion motion_;
+  const double dt_;
+  const bool has_weight_;
+  KickWork& work_;
+  LaneEnergySum<TwoRows> damping_, gravity_;
 };
 
 [[noreturn]] void refuse_motion(const Particles& p, Index i, double dt)
@@ -88,42 +97,57 @@ struct Kick {
   throw NumericalError(who + " turns by " + std::to_string(rotated) + " rad" + remedy);
 }
 
-/// Move one particle. Returns the square of its motion over S [m^2].
-double drift_one(Particles& p, Index i, double dt)
-{
-  ParticleState& b = p.state[i];
-  const Vec3 dx = dt * b.v;
-  const double moved2 = dx.squaredNorm();
-  if (!(moved2 <= 0.05 * 0.05 * b.R * b.R) ||
-      !(b.omega.squaredNorm() * dt * dt <= 0.05 * 0.05))
-    refuse_motion(p, i, dt);
-  b.x += dx;
-  return moved2 / (b.S * b.S);
-}
+/// Moves the particles and keeps their largest motion over S.
+class Drift {
+public:
+  Drift(Particles& p, double dt) : p_(p), dt_(dt) {}
+
+  void operator()(Index i)
+  {
+    ParticleState& b = p_.state[i];
+    const Vec3 dx = dt_ * b.v;
+    const double moved2 = dx.squaredNorm();
+    if (!(moved2 <= 0.05 * 0.05 * b.R * b.R) ||
+        !(b.omega.squaredNorm() * dt_ * dt_ <= 0.05 * 0.05))
+      refuse_motion(p_, i, dt_);
+    b.x += dx;
+    const double S2 = b.S * b.S;
+    if (moved2 > largest2_ * S2) largest2_ = moved2 / S2; // seldom
+  }
+
+  double largest() const { return std::sqrt(largest2_); } ///< [m]
+
+private:
+  Particles& p_;
+  const double dt_;
+  double largest2_ = 0.0;
+};
 
 } // namespace
 
 void kick(Particles& p, const Motion& motion, double dt, KickWork& work)
 {
-  const Kick kick_one(motion, dt);
-  p.for_owned([&](Index i) { kick_one(p, i, work); });
+  Kick kick_one(p, motion, dt, work);
+  p.for_owned([&](Index i) { kick_one(i); });
 }
 
 void drift(Particles& p, double dt)
 {
-  p.for_owned([&](Index i) { drift_one(p, i, dt); });
+  Drift drift_one(p, dt);
+  p.for_owned([&](Index i) { drift_one(i); });
 }
 
 double kick_and_drift(Particles& p, const Motion& motion, double dt_kick, double dt,
                       KickWork& work)
 {
-  const Kick kick_one(motion, dt_kick);
-  double max2 = 0.0;
+  Kick kick_one(p, motion, dt_kick, work);
+  Drift drift_one(p, dt);
   p.for_owned([&](Index i) {
-    kick_one(p, i, work);
-    max2 = std::max(max2, drift_one(p, i, dt));
+    kick_one(i);
+    p.load[i] = Load{};
+    drift_one(i);
   });
-  return std::sqrt(max2);
+  return drift_one.largest();
 }
 
 void clear_loads(Particles& p)

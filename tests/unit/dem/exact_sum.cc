@@ -1,4 +1,4 @@
-#include "dem/math/exact_sum.h"
+#include "dem/math/lane_sum.h"
 
 #include <catch2/catch.hpp>
 
@@ -66,4 +66,50 @@ TEST_CASE("A term out of range or undefined throws instead of being clipped", "[
   VectorSum v;
   CHECK_THROWS_AS(v.add({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}),
                   mergel::NumericalError);
+}
+
+namespace {
+
+/// Adds the terms in lanes of V, and one by one; true when both sums have the same bits.
+template <class V>
+bool are_lanes_alike(const std::vector<double>& terms)
+{
+  EnergySum in_lanes, one_by_one;
+  {
+    LaneEnergySum<V> sum(in_lanes);
+    constexpr std::size_t n = n_lanes_of<V>;
+    for (std::size_t k = 0; k < terms.size(); k += n) {
+      V some{};
+      for (std::size_t l = 0; l < n && k + l < terms.size(); ++l)
+        some[static_cast<int>(l)] = terms[k + l];
+      sum.add(some);
+    }
+  }
+  for (const double a : terms) one_by_one.add(a);
+  return in_lanes.raw() == one_by_one.raw();
+}
+
+} // namespace
+
+TEST_CASE("Lanes give the bits of terms that are added one by one", "[unit][dem]")
+{
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  // From ties of the rounding, halves of a quantum, to terms of more than 64 bits.
+  for (const double size : {0x1p-60, 0x1p-50, 0x1p-12, 0x1p-10, 1.0, 1e6}) {
+    std::vector<double> terms(40003); // more than are kept in 64 bits; not a whole batch
+    for (double& a : terms)
+      a = size > 0x1p-60 ? size * u(random) : std::round(8.0 * u(random)) * 0x1p-62;
+    CAPTURE(size);
+    CHECK(are_lanes_alike<Lanes>(terms));
+    CHECK(are_lanes_alike<TwoRows>(terms));
+    CHECK(are_lanes_alike<Row>(terms));
+  }
+  // The largest terms that are added as integers, all of one sign: no overflow.
+  CHECK(are_lanes_alike<Lanes>(std::vector<double>(100000, 0x1.fffffffffffffp-11)));
+  EnergySum s;
+  LaneEnergySum<Lanes> lanes(s);
+  CHECK_THROWS_AS(lanes.add(Lanes{} + std::numeric_limits<double>::quiet_NaN()),
+                  mergel::NumericalError);
+  CHECK_THROWS_AS(lanes.add(Lanes{} + 0x1p39), mergel::NumericalError);
 }
