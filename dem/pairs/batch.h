@@ -84,7 +84,7 @@ struct Batch {
 };
 
 [[gnu::always_inline]] inline Batch batch_of(const std::vector<Pair>& pairs,
-                                             const std::size_t* which, std::size_t first,
+                                             const Index* which, std::size_t first,
                                              std::size_t end)
 {
   Batch q;
@@ -111,7 +111,7 @@ inline Mask counted(const Batch& q, const Particles& p)
   return lanes_of(bits);
 }
 
-inline void shift_images(const std::vector<Pair>& pairs, const std::size_t* which,
+inline void shift_images(const std::vector<Pair>& pairs, const Index* which,
                          std::size_t first, const Batch& q, const PeriodicCell& cell,
                          Triple<Lanes>& x)
 {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dem/pairs/pairs.h"
+#include "dem/particles/particles.h"
 
 #include <vector>
 
@@ -17,6 +18,15 @@ struct alignas(32) ContactShear {
 struct Contacts {
   std::vector<Pair> pairs; ///< ascending
   std::vector<ContactShear> shear;
+  /// Numbers of the pairs that may act until the list is narrowed again, where it is.
+  std::vector<Index> close;
+  bool is_narrowed = false; ///< otherwise any pair may act (VerletList::narrow())
 };
+
+/// Write the numbers of the pairs whose gap is below `range` S, or that still have a shear
+/// force, to `which`, ascending. Examines the close pairs alone where the list is narrowed.
+/// @param range at S = 1 [m]
+void choose_contacts(double range, const PeriodicCell& cell, const Particles& p,
+                     const Contacts& contacts, std::vector<Index>& which);
 
 } // namespace mergel::dem

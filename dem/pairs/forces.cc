@@ -2,9 +2,6 @@
 
 #include "dem/pairs/pair_force.h"
 
-#include <algorithm>
-#include <cstring>
-
 namespace mergel::dem {
 
 namespace {
@@ -53,23 +50,24 @@ void add_bonded_pairs(const Law& law, const Contact& contact_law, const Periodic
 template <IsContactLaw Contact>
 void add_other_pairs(const Contact& contact_law, const PeriodicCell& cell, double dt,
                      Particles& p, Contacts& contacts, PairLosses& of_all,
-                     const std::size_t* which, std::size_t n)
+                     const std::vector<Index>& which)
 {
   LoopLosses losses(of_all);
   const Contact law = contact_law;
   const bool is_periodic = cell.is_periodic(),
              is_strain_controlled = cell.is_strain_controlled;
   const Vec3 rate = cell.rate;
+  const std::size_t n = which.size();
   for (std::size_t first = 0; first < n; first += n_lanes) {
     for (std::size_t a = first + prefetch_ahead; a < first + prefetch_ahead + n_lanes; ++a)
       if (a < n) {
         prefetch(p, contacts.pairs[which[a]].j);
         __builtin_prefetch(&contacts.shear[which[a]], 1);
       }
-    const Batch q = batch_of(contacts.pairs, which, first, n);
+    const Batch q = batch_of(contacts.pairs, which.data(), first, n);
     const End<Lanes> i = gather(p.state.data(), q.i);
     End<Lanes> j = gather(p.state.data(), q.j);
-    if (is_periodic) shift_images(contacts.pairs, which, first, q, cell, j.x);
+    if (is_periodic) shift_images(contacts.pairs, which.data(), first, q, cell, j.x);
     if (is_strain_controlled) add_cell_motion(rate, i, j);
     const PairMotion<Lanes> k = pair_motion(i, j, dt);
 
@@ -93,41 +91,6 @@ void add_other_pairs(const Contact& contact_law, const PeriodicCell& cell, doubl
   }
 }
 
-bool is_zero(const Vec3& a)
-{
-  std::uint64_t bits[3];
-  std::memcpy(bits, a.data(), sizeof bits);
-  return ((bits[0] | bits[1] | bits[2]) << 1) == 0; // without the sign
-}
-
-/// Choose the pairs that go through the kernel: those in contact, and those that still have
-/// a shear force. Most candidates are neither. Writes their numbers to `which` and returns
-/// their count. There is no branch on the distance, because it cannot be predicted.
-std::size_t choose_in_contact(double g_a, const PeriodicCell& cell, const Particles& p,
-                              const Contacts& contacts, std::size_t* which)
-{
-  const bool is_periodic = cell.is_periodic();
-  const Pair* const pairs = contacts.pairs.data();
-  const ContactShear* const shear = contacts.shear.data();
-  const ParticleState* const state = p.state.data();
-  const std::size_t n = contacts.pairs.size();
-  std::size_t n_in_contact = 0;
-  for (std::size_t c = 0; c < n; ++c) {
-    __builtin_prefetch(&state[pairs[std::min(c + prefetch_ahead, n - 1)].j]);
-    const Pair& pair = pairs[c];
-    const ParticleState &i = state[pair.i], &j = state[pair.j];
-    Vec3 r = j.x - i.x;
-    if (is_periodic && (pair.shift[0] | pair.shift[1] | pair.shift[2]) != 0)
-      r += cell.offset(pair.shift);
-    const double reach = i.R + j.R + g_a * (0.5 * (i.S + j.S));
-    // A distance of NaN counts as contact: the force is NaN then, and the next kick throws.
-    const bool is_apart = r.squaredNorm() >= reach * reach * (1.0 + 1e-12);
-    which[n_in_contact] = c;
-    n_in_contact += !is_apart | !is_zero(shear[c].f_s);
-  }
-  return n_in_contact;
-}
-
 } // namespace
 
 void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, double dt,
@@ -148,13 +111,11 @@ void add_bond_forces(const PairMaterials& material, const PeriodicCell& cell, do
 void add_contact_forces(const ContactLaw& law, const PeriodicCell& cell, double dt,
                         Particles& p, Contacts& contacts, PairLosses& losses)
 {
-  static thread_local std::vector<std::size_t> in_contact;
-  in_contact.resize(contacts.pairs.size());
-  std::size_t* const which = in_contact.data();
-  const std::size_t n = choose_in_contact(activation_gap(law), cell, p, contacts, which);
+  static thread_local std::vector<Index> in_contact;
+  choose_contacts(activation_gap(law), cell, p, contacts, in_contact);
   std::visit(
       [&](const auto& contact) {
-        add_other_pairs(contact, cell, dt, p, contacts, losses, which, n);
+        add_other_pairs(contact, cell, dt, p, contacts, losses, in_contact);
       },
       law);
 }

@@ -244,7 +244,9 @@ double VerletList::travel(const Particles& p) const
   p.for_owned([&](Index i) {
     const double S = p.state[i].S;
     max2 = std::max(
-        max2, (p.state[i].x - x_built_[i].cwiseProduct(stretch_)).squaredNorm() / (S * S));
+        max2,
+        (p.state[i].x - x_built_[i].cwiseProduct(since_built_.stretch)).squaredNorm() /
+            (S * S));
   });
   return std::sqrt(max2);
 }
@@ -273,9 +275,25 @@ void VerletList::rebuild(const Particles& p, const PeriodicCell& cell, const Bon
     largest = std::max(largest, p.state[i].R / p.state[i].S);
   }
   longest_reach_ = 2.0 * largest + g_a_ + skin_;
-  stretch_ = Vec3::Ones();
-  travel_ = 0.0;
+  since_built_ = {};
+  is_narrowed_ = false;
   ++n_builds_;
+}
+
+void VerletList::narrow(const Particles& p, const PeriodicCell& cell, Contacts& contacts)
+{
+  // Each step costs 1/n of a pass over all candidates and n steps' worth of close ones: with
+  // some hundreds of steps between two rebuilds their root is best.
+  constexpr double steps_between_narrowings = 16.0;
+  margin_ =
+      std::clamp(2.0 * last_motion_ * steps_between_narrowings, skin_ / 32.0, skin_ / 4.0);
+  std::vector<Index> close;
+  contacts.is_narrowed = false;
+  choose_contacts(g_a_ + margin_, cell, p, contacts, close);
+  contacts.close = std::move(close);
+  contacts.is_narrowed = true;
+  since_narrowed_ = {};
+  is_narrowed_ = true;
 }
 
 } // namespace mergel::dem

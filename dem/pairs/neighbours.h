@@ -45,19 +45,24 @@ public:
 
   /// Report that since the last call no particle of any rank moved by more than `most` S
   /// [m]. To be called after every motion of particles, or else invalidate().
-  void add_motion(double most) { travel_ += most; }
+  void add_motion(double most)
+  {
+    last_motion_ = most;
+    since_built_.motion += most;
+    since_narrowed_.motion += most;
+  }
   /// Report a strain of the cell that scaled its edges and all positions by these factors.
   void add_strain(const Vec3& growth)
   {
-    stretch_ = stretch_.cwiseProduct(growth);
-    travel_ *= std::max(1.0, growth.maxCoeff());
+    since_built_.add_strain(growth);
+    since_narrowed_.add_strain(growth);
   }
 
   /// True when, by the motions reported since the last build, a particle may have moved by
   /// half its skin, or when there was no build.
   bool may_be_stale(const Particles& p) const
   {
-    return x_built_.size() != p.size() || travel_ > allowance();
+    return x_built_.size() != p.size() || since_built_.motion > allowance();
   }
   /// Largest motion over S of an owned particle relative to the cell since the last build
   /// [m]; infinite without a build.
@@ -65,8 +70,8 @@ public:
   /// True when a particle moved by half its skin. @param largest global max of travel() [m]
   bool is_stale(double largest)
   {
-    travel_ = largest;
-    return travel_ > allowance();
+    since_built_.motion = largest;
+    return largest > allowance();
   }
   /// The same on one rank.
   bool is_stale(const Particles& p) { return may_be_stale(p) && is_stale(travel(p)); }
@@ -82,6 +87,16 @@ public:
   void rebuild(const Particles& p, const PeriodicCell& cell, const Bonds& bonds,
                Contacts& contacts);
 
+  /// True when a pair that is not close may act.
+  bool is_narrowing_stale() const
+  {
+    return !is_narrowed_ || since_narrowed_.largest(longest_reach_) > margin_;
+  }
+  /// Choose the close contacts: those with a gap below (g_a + margin) S, or with a shear
+  /// force. Most candidates are neither, and are not examined until this is stale, some 16
+  /// steps later. Changes no result.
+  void narrow(const Particles& p, const PeriodicCell& cell, Contacts& contacts);
+
   void invalidate() { x_built_.clear(); }
   double skin() const { return skin_; }
   /// Motion of a wall after which the list is stale: half the skin of the smallest S [m].
@@ -89,21 +104,37 @@ public:
   std::size_t n_builds() const { return n_builds_; }
 
 private:
+  /// By how much pairs that were apart may have come nearer, over S.
+  struct Approach {
+    double motion = 0.0;         ///< bound of that of a particle over S [m]
+    Vec3 stretch = Vec3::Ones(); ///< edges of the cell over those at the start [-]
+
+    void add_strain(const Vec3& growth)
+    {
+      stretch = stretch.cwiseProduct(growth);
+      motion *= std::max(1.0, growth.maxCoeff());
+    }
+    double shortening() const { return std::max(0.0, 1.0 - stretch.minCoeff()); }
+    /// Of both particles and the cell, for pairs of this distance [m].
+    double largest(double reach) const { return 2.0 * motion + shortening() * reach; }
+  };
+
   /// Half of the skin that the strain has left [m]. The cell brings an unlisted pair nearer
   /// by the largest shortening of an edge at most. With distances over S:
   ///   (1 - shortening) (reach + skin) - 2 travel >= reach
   double allowance() const
   {
-    const double shortening = std::max(0.0, 1.0 - stretch_.minCoeff());
-    return 0.5 * (skin_ - shortening * longest_reach_);
+    return 0.5 * (skin_ - since_built_.shortening() * longest_reach_);
   }
 
   double g_a_, skin_;
   std::vector<Vec3> x_built_;
-  Vec3 stretch_ = Vec3::Ones(); ///< edges of the cell over those at the last build [-]
-  double longest_reach_ = 0.0;  ///< bound of (R_i + R_j)/S + g_a + skin [m]
-  double smallest_skin_ = 0.0;  ///< of the smallest S [m]
-  double travel_ = 0.0;         ///< bound of the motion over S since the last build [m]
+  double longest_reach_ = 0.0; ///< bound of (R_i + R_j)/S + g_a + skin [m]
+  double smallest_skin_ = 0.0; ///< of the smallest S [m]
+  Approach since_built_, since_narrowed_;
+  double last_motion_ = 0.0; ///< as reported last [m]
+  double margin_ = 0.0;      ///< of the close contacts, at S = 1 [m]
+  bool is_narrowed_ = false;
   std::size_t n_builds_ = 0;
 };
 
