@@ -43,15 +43,26 @@ public:
     }
   }
 
-  /// Visit every point: visit(x, is solid).
-  template <class Visit>
-  void visit(Visit&& visit) const
+  struct Count {
+    std::ptrdiff_t points = 0, solid = 0;
+  };
+  /// Points of a convex set, and those of them in a sphere. In a row they lie side by side,
+  /// so only the points beside them are tested.
+  template <class IsInside>
+  Count count(IsInside&& is_inside) const
   {
+    Count c;
     for (long k = 0; k < n_[2]; ++k)
-      for (long j = 0; j < n_[1]; ++j)
-        for (long i = 0; i < n_[0]; ++i)
-          visit(Vec3(low_ + h_ * at(i, j, k)),
-                solid_[static_cast<std::size_t>(index(i, j, k))]);
+      for (long j = 0; j < n_[1]; ++j) {
+        const auto is_in = [&](long i) { return is_inside(Vec3(low_ + h_ * at(i, j, k))); };
+        long first = 0, end = n_[0];
+        while (first < end && !is_in(first)) ++first;
+        while (end > first && !is_in(end - 1)) --end;
+        const auto row = solid_.begin() + index(0, j, k);
+        c.points += end - first;
+        c.solid += std::count(row + first, row + end, true);
+      }
+    return c;
   }
 
 private:
@@ -91,19 +102,14 @@ double core_porosity(const Region& region, const Particles& p)
   const double h = std::max(0.1 * d_smallest, std::cbrt((box.high - box.low).prod() / 1e8));
   Raster raster(box, h);
   for (const ParticleState& b : p.state) raster.fill(b);
-  std::size_t points = 0, filled = 0;
-  std::visit(
+  const Raster::Count core = std::visit(
       [&](const auto& shape) {
-        raster.visit([&](const Vec3& x, bool is_solid) {
-          if (!is_inside_by(shape, x, margin)) return;
-          ++points;
-          filled += is_solid;
-        });
+        return raster.count([&](const Vec3& x) { return is_inside_by(shape, x, margin); });
       },
       region);
-  require(points > 0,
+  require(core.points > 0,
           "the region has no core: it must be wider than three of the largest particles");
-  return 1.0 - static_cast<double>(filled) / static_cast<double>(points);
+  return 1.0 - static_cast<double>(core.solid) / static_cast<double>(core.points);
 }
 
 } // namespace mergel::dem
