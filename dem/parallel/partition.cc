@@ -113,6 +113,18 @@ void Partition::assign(Particles& p, const std::vector<double>& weight,
     throw NumericalError("distributing the particles left some without an owner");
 }
 
+void Partition::assign_by_index(Particles& p, const Communicator& comm)
+{
+  if (comm.is_alone()) return;
+  const auto rank = static_cast<std::size_t>(comm.rank()),
+             n = static_cast<std::size_t>(comm.n_ranks());
+  std::vector<char> is_owned(p.size(), 0);
+  std::fill(is_owned.begin() + static_cast<std::ptrdiff_t>(p.size() * rank / n),
+            is_owned.begin() + static_cast<std::ptrdiff_t>(p.size() * (rank + 1) / n), 1);
+  p.set_ownership(std::move(is_owned), std::vector<char>(p.size(), 0));
+  list_owners(p, comm);
+}
+
 void Partition::list_owners(const Particles& p, const Communicator& comm)
 {
   std::vector<Index> mine;

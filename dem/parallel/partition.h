@@ -23,6 +23,10 @@ public:
   /// @pre x is up to date for owned particles
   void assign(Particles& p, const std::vector<double>& weight, const Communicator& comm);
 
+  /// Distribute the particles in equal parts by their index: compact where they are numbered
+  /// along a space-filling curve. Sets the ownership of `p`, without ghosts; collective.
+  void assign_by_index(Particles& p, const Communicator& comm);
+
   /// Send position, velocity and spin of every particle from its owner to all ranks;
   /// collective.
   void gather_motion(Particles& p, const Communicator& comm) const;

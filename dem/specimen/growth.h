@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dem/pairs/neighbours.h"
+#include "dem/parallel/ghosts.h"
 #include "dem/specimen/region.h"
 
 #include <functional>
@@ -10,36 +11,52 @@
 namespace mergel::dem {
 
 /// Sweeps over all overlaps. A sweep removes a share of each overlap and adds a share of
-/// the last move.
+/// the last move. Each particle adds its pairs in ascending order, so the same particles
+/// give the same bits on any number of ranks.
 class Growth {
 public:
+  /// @param p    all particles on every rank, owned and numbered along a space-filling curve
   /// @param g_a  activation gap at S = 1 [m]: shells keep a gap of g_a (S_i + S_j)/2
   /// @param skin margin of the list of pairs at S = 1 [m], > 0
-  /// `p` and `region` must outlive it.
-  Growth(Particles& p, const Region& region, double g_a, double skin);
+  /// @param comm ranks that share the sweeps
+  /// `p` and `region` must outlive it. Collective, as is all below.
+  Growth(Particles& p, const Region& region, double g_a, double skin,
+         const Communicator& comm = {});
 
-  /// One sweep with all sizes times `size`. Returns the largest overlap before the moves,
-  /// shells included, over the distance at which the pair would not overlap.
+  /// One sweep with all sizes times `size` <= 1. Returns the largest overlap before the
+  /// moves, shells included, over the distance at which the pair would not overlap. Then a
+  /// rank has the positions of its own particles and of those near them.
   double sweep(double size);
 
-  std::size_t n_overlaps() const
-  {
-    return n_overlaps_;
-  } ///< overlapping pairs in the last sweep
+  /// Give every rank all positions, and all particles as its own.
+  void gather();
+
+  /// Overlapping pairs in the last sweep.
+  std::size_t n_overlaps() const { return comm_.global_sum(n_overlaps_); }
 
 private:
-  bool is_stale() const;
+  bool is_stale();
   void rebuild();
+  void choose_ghosts();
+  void narrow();
   double separate_pairs(double size);
   template <class Shape>
   double separate_from_boundaries(const Shape& shape, double size);
-  void move();
+  double move();
 
   Particles& p_;
   const Region& region_;
+  Communicator comm_;
+  Partition partition_;
+  Ghosts ghosts_;
   PeriodicCell cell_;
   double g_a_, skin_;
   std::vector<Pair> pairs_;
+  std::vector<Pair> close_; ///< those that may overlap until they are chosen again
+  double margin_ = 0.0;     ///< of the close pairs, at S = 1 [m]
+  double travel_ = 0.0;     ///< bound of the motion over S since the list was built [m]
+  double narrowed_travel_ = 0.0; ///< the same since the close pairs were chosen [m]
+  double last_move_ = 0.0;       ///< largest motion over S in the last sweep [m]
   std::vector<Vec3> x_listed_, separation_, move_;
   std::size_t n_overlaps_ = 0;
 };

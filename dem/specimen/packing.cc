@@ -164,10 +164,13 @@ Particles draw_particles(const SpecimenSpec& s, double target)
 }
 
 double grow_packing(const SpecimenSpec& s, Particles& p, const Sweeps& sweeps,
-                    const std::function<void(double)>& progress)
+                    const Communicator& comm, const std::function<void(double)>& progress)
 {
-  Growth growth(p, s.region, activation_gap(s.contact), default_skin * s.sizes.smallest());
-  return grow(growth, sweeps, progress);
+  Growth growth(p, s.region, activation_gap(s.contact), default_skin * s.sizes.smallest(),
+                comm);
+  const double overlap = grow(growth, sweeps, progress);
+  growth.gather();
+  return overlap;
 }
 
 /// Move each particle to its image inside the box.
@@ -181,11 +184,11 @@ void wrap_into(const PeriodicCell& cell, Particles& p)
 /// Sweep the grown packing until it is unjammed.
 /// @throws InputError when overlaps remain
 void finish_unjammed(const SpecimenSpec& s, Packing& packing, double tolerance,
-                     const std::function<void(double)>& progress)
+                     const Communicator& comm, const std::function<void(double)>& progress)
 {
   constexpr int sweeps_to_finish = 8000;
-  packing.overlap =
-      grow_packing(s, packing.particles, {1.0, tolerance, sweeps_to_finish}, progress);
+  packing.overlap = grow_packing(s, packing.particles, {1.0, tolerance, sweeps_to_finish},
+                                 comm, progress);
   std::ostringstream text;
   text.precision(3);
   text << "cannot be reached unjammed: particles and walls still overlap by "
@@ -214,17 +217,18 @@ Packing pack(const SpecimenSpec& s, const std::function<void(double)>& progress,
   double solid = 1.0 - s.porosity; // of the whole region
   Packing packing;
   packing.cell = cell_of(s.region);
+  const Communicator ranks = comm == MPI_COMM_NULL ? Communicator() : Communicator(comm);
   const auto settling = [&](double part) { progress(0.2 + 0.8 * part); };
   for (int draw = 0; draw < max_draws; ++draw) {
     packing.particles = draw_particles(s, solid * volume(s.region));
     const auto report = [&](double part) { progress((draw + part) / max_draws); };
-    packing.overlap = grow_packing(s, packing.particles,
-                                   {0.6, tolerance_overlap, sweeps_to_judge}, report);
+    packing.overlap = grow_packing(
+        s, packing.particles, {0.6, tolerance_overlap, sweeps_to_judge}, ranks, report);
     measure_porosity(s, packing);
     if (std::abs(packing.porosity - s.porosity) < tolerance_n) {
       switch (s.compaction) {
       case Compaction::unjammed:
-        finish_unjammed(s, packing, tolerance_overlap, report);
+        finish_unjammed(s, packing, tolerance_overlap, ranks, report);
         break;
       case Compaction::confined:
         confine(s, packing, comm, settling);

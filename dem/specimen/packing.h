@@ -89,7 +89,7 @@ void measure_porosity(const SpecimenSpec& spec, Packing& packing);
 /// packing, and the packing is unjammed. Confined and expanded packings then settle with
 /// friction (dem/specimen/compaction.h).
 /// @param progress gets a fraction of the work
-/// @param comm ranks that share the settling; MPI_COMM_NULL for one rank without MPI
+/// @param comm ranks that share growth and settling; MPI_COMM_NULL for one rank without MPI
 /// @throws InputError when the core cannot reach its porosity: unjammed, when overlaps
 ///   above 1e-3 of the distance remain; confined, when not together with the pressure
 Packing pack(const SpecimenSpec& spec, const std::function<void(double)>& progress,

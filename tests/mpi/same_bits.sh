@@ -45,12 +45,13 @@ for n in 1 2 3 4 8; do
   ranks $n "$mergel" pile "$root/apps/cases/pile_small.prm" "${tiny[@]}" --output "pile$n" >log 2>&1 ||
     fail "the pile on $n ranks: $(tail -3 log)"
   cmp pile1/history.csv "pile$n/history.csv" || fail "the pile on $n ranks differs from one"
+  cmp pile1/sample.h5 "pile$n/sample.h5" || fail "the specimen of the pile on $n ranks differs from one"
   cmp pile1/fields/particles_0001.vtp "pile$n/fields/particles_0001.vtp" ||
     fail "the particles of the pile on $n ranks differ from one"
 done
 broken=$(awk -F': ' '/"bonds broken/ { print $2 + 0 }' pile1/summary.json)
 [ "$broken" -gt 20 ] || fail "the pile broke only $broken bonds"
-echo "pile: $broken bonds broken, the same history and particles on 1, 2, 3, 4, 8 ranks"
+echo "pile: $broken bonds broken, the same specimen, history and particles on 1, 2, 3, 4, 8 ranks"
 
 # An element test with a servo and unloading.
 element=(--set "Specimen/edge x=3.9 mm" --set "Specimen/edge y=3.9 mm" --set "Specimen/edge z=3.9 mm" --set "Loading/stage 2=triaxial to axial strain = 0.6 %"
