@@ -53,19 +53,21 @@ bool lists_are_stale(Assembly& assembly)
 
 } // namespace
 
-void rebuild_lists(Assembly& assembly)
+void rebuild_lists(Assembly& assembly, double dt)
 {
   assembly.partition.gather_motion(assembly.particles, assembly.comm);
   const Particles& p = assembly.particles;
   const double skin = assembly.list.skin();
-  assembly.list.rebuild(p, assembly.cell, assembly.bonds, assembly.contacts);
+  assembly.list.rebuild(p, assembly.cell, assembly.bonds, assembly.contacts, dt);
   assembly.fault.run([&] {
-    for_each_wall(assembly, [&](auto& w) { rebuild_wall(w, assembly.material, p, skin); });
+    for_each_wall(assembly, [&](auto& w) {
+      rebuild_wall(w, assembly.material, p, skin, assembly.list.extra());
+    });
   });
   choose_ghosts(assembly);
 }
 
-void complete_lists(Assembly& assembly, double beyond)
+void complete_lists(Assembly& assembly, double beyond, double dt)
 {
   assembly.comm.agree_on(assembly.fault); // one of the last step may not be reported yet
   const double largest = assembly.comm.global_max(assembly.list.travel(assembly.particles));
@@ -76,7 +78,7 @@ void complete_lists(Assembly& assembly, double beyond)
     is_complete &= travel(w) <= share * assembly.list.wall_allowance();
   });
   if (is_complete) return;
-  rebuild_lists(assembly);
+  rebuild_lists(assembly, dt);
   assembly.comm.agree_on(assembly.fault);
 }
 
@@ -120,7 +122,8 @@ void add_forces_to_cleared(Assembly& assembly, double dt)
   assembly.ghosts.update(p, assembly.comm);
   lap(assembly.times.exchange);
   for (Wall& w : assembly.walls) update_normals(w);
-  if (lists_are_stale(assembly)) rebuild_lists(assembly); // walls are the same on all ranks
+  if (lists_are_stale(assembly))
+    rebuild_lists(assembly, dt); // walls are the same on all ranks
   if (assembly.list.is_narrowing_stale())
     assembly.list.narrow(p, assembly.cell, assembly.contacts);
   assembly.losses.virial.clear();

@@ -18,12 +18,13 @@ void add_forces(Assembly& assembly, double dt);
 void add_forces_to_cleared(Assembly& assembly, double dt);
 
 /// Rebuild all lists for the present positions, stale or not. Changes no force.
-void rebuild_lists(Assembly& assembly);
+/// @param dt time step, as of VerletList::rebuild() [s]
+void rebuild_lists(Assembly& assembly, double dt = 0.0);
 
 /// Rebuild the lists unless they have all pairs and all contacts with walls whose gap is
 /// below (g_a + beyond) S. Changes no force. Collective.
-/// @param beyond at S = 1, below the skin [m]
-void complete_lists(Assembly& assembly, double beyond);
+/// @param beyond at S = 1, below the skin [m]; @param dt as of rebuild_lists() [s]
+void complete_lists(Assembly& assembly, double beyond, double dt = 0.0);
 
 /// One step: kick, drift, move the walls by `move_walls(dt)`, strain a strain-controlled
 /// cell, forces (dem/README.md, Motion).
@@ -63,8 +64,8 @@ void advance(Assembly& assembly, double dt_before, double dt, MoveWalls&& move_w
   double largest_motion =
       std::numeric_limits<double>::infinity(); // stays infinite after a fault
   assembly.fault.run([&] {
-    largest_motion =
-        kick_and_drift(assembly.particles, assembly.motion, dt_kick, dt, assembly.work);
+    largest_motion = kick_and_drift(assembly.particles, assembly.motion, dt_kick, dt,
+                                    assembly.work, assembly.list.spare());
   });
   const double moved = wall_clock();
   assembly.times.motion += moved - start;

@@ -25,7 +25,7 @@ bool has_motion(const WallSystem* system)
 /// The springs that act until the next check.
 Springs present_springs(Assembly& assembly, double dt, const WallSystem* system)
 {
-  complete_lists(assembly, open_gap_counted(assembly));
+  complete_lists(assembly, open_gap_counted(assembly), dt);
   Springs springs;
   assembly.fault.run([&] {
     const double horizon = dt * static_cast<double>(steps_between_step_checks);

@@ -16,8 +16,8 @@ bool is_zero(const Vec3& a)
 /// @param number_of the n pairs to examine, ascending
 template <class NumberOf>
 void choose(double range, const PeriodicCell& cell, const Particles& p,
-            const Contacts& contacts, std::vector<Index>& which, std::size_t n,
-            NumberOf&& number_of)
+            const Contacts& contacts, std::vector<Index>& which,
+            const std::vector<double>& extra, std::size_t n, NumberOf&& number_of)
 {
   const bool is_periodic = cell.is_periodic();
   const Pair* const pairs = contacts.pairs.data();
@@ -37,7 +37,8 @@ void choose(double range, const PeriodicCell& cell, const Particles& p,
     Vec3 r = j.x - i.x;
     if (is_periodic && (pair.shift[0] | pair.shift[1] | pair.shift[2]) != 0)
       r += cell.offset(pair.shift);
-    const double reach = i.R + j.R + range * (0.5 * (i.S + j.S));
+    double reach = i.R + j.R + range * (0.5 * (i.S + j.S));
+    if (!extra.empty()) reach += extra[pair.i] + extra[pair.j];
     // A distance of NaN counts as contact: the force is NaN then, and the next kick throws.
     const bool is_apart = r.squaredNorm() >= reach * reach * (1.0 + 1e-12);
     // There is no branch on the distance, because it cannot be predicted.
@@ -50,13 +51,14 @@ void choose(double range, const PeriodicCell& cell, const Particles& p,
 } // namespace
 
 void choose_contacts(double range, const PeriodicCell& cell, const Particles& p,
-                     const Contacts& contacts, std::vector<Index>& which)
+                     const Contacts& contacts, std::vector<Index>& which,
+                     const std::vector<double>& extra)
 {
   if (contacts.is_narrowed)
-    choose(range, cell, p, contacts, which, contacts.close.size(),
+    choose(range, cell, p, contacts, which, extra, contacts.close.size(),
            [close = contacts.close.data()](std::size_t k) { return close[k]; });
   else
-    choose(range, cell, p, contacts, which, contacts.pairs.size(),
+    choose(range, cell, p, contacts, which, extra, contacts.pairs.size(),
            [](std::size_t k) { return static_cast<Index>(k); });
 }
 

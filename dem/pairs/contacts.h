@@ -25,8 +25,9 @@ struct Contacts {
 
 /// Write the numbers of the pairs whose gap is below `range` S, or that still have a shear
 /// force, to `which`, ascending. Examines the close pairs alone where the list is narrowed.
-/// @param range at S = 1 [m]
+/// @param range at S = 1 [m]; @param extra range of each particle [m]; empty: none
 void choose_contacts(double range, const PeriodicCell& cell, const Particles& p,
-                     const Contacts& contacts, std::vector<Index>& which);
+                     const Contacts& contacts, std::vector<Index>& which,
+                     const std::vector<double>& extra = {});
 
 } // namespace mergel::dem

@@ -20,8 +20,13 @@ struct Level {
   Vec3 edge, origin;  ///< of the cells [m]
   Cells n{1, 1, 1};
   std::vector<Index> start; ///< first entry of the cell in `member`
-  std::vector<Index> member;
-  std::vector<Index> all; ///< particles of the class, ascending
+  struct Member {
+    Vec3 x;       ///< inside the cell [m]
+    double reach; ///< [m]
+    Index i;
+  };
+  std::vector<Member> member; ///< cell by cell: a search reads them one after the other
+  std::vector<Index> all;     ///< particles of the class, ascending
 
   std::size_t index(const Cells& c) const
   {
@@ -29,10 +34,18 @@ struct Level {
   }
 };
 
-double reach_of(const ParticleState& b, double range)
-{
-  return b.R + 0.5 * range * b.S;
-}
+/// Half of the distance up to which a pair counts, as far as it belongs to one particle [m].
+struct Reach {
+  const Particles& p;
+  double range;
+  const std::vector<double>& extra;
+
+  double operator()(std::size_t i) const
+  {
+    const ParticleState& b = p.state[i];
+    return b.R + 0.5 * range * b.S + (extra.empty() ? 0.0 : extra[i]);
+  }
+};
 
 /// Images of all particles inside the cell, with the shifts that map them there.
 struct Wrapped {
@@ -74,8 +87,8 @@ Cells clamped(const Level& l, Cells c)
 }
 
 /// @param low, high bounding box of all particles
-void sort_into_cells(Level& l, const Wrapped& w, const PeriodicCell& cell, const Vec3& low,
-                     const Vec3& high)
+void sort_into_cells(Level& l, const Wrapped& w, const Reach& reach_of,
+                     const PeriodicCell& cell, const Vec3& low, const Vec3& high)
 {
   // No more cells than particles of the class, so that memory stays linear.
   const auto most = static_cast<double>(std::max<std::size_t>(l.all.size(), 64));
@@ -108,16 +121,22 @@ void sort_into_cells(Level& l, const Wrapped& w, const PeriodicCell& cell, const
   for (std::size_t c = 0; c < total; ++c) l.start[c + 1] += l.start[c];
   l.member.resize(l.all.size());
   std::vector<Index> next(l.start.begin(), l.start.end() - 1);
-  for (std::size_t k = 0; k < l.all.size(); ++k) l.member[next[at[k]]++] = l.all[k];
+  for (std::size_t k = 0; k < l.all.size(); ++k) {
+    const Index i = l.all[k];
+    l.member[next[at[k]]++] = {w.x[i], reach_of(i), i};
+  }
 }
 
-/// Visit every particle of the level in the 27 cells around x, with the periodic shift of
-/// its image.
+/// Visit the members of the level in the 27 cells around x, in runs of cells side by side:
+/// visit(first, end, periodic shift of the images).
 template <class Visit>
 void visit_around(const Level& l, const Vec3& x, const PeriodicCell& cell, Visit&& visit)
 {
   const Cells c = clamped(l, cell_of(l, x));
-  std::array<std::array<long, 3>, 3> at{}, wraps{};
+  struct Run {
+    long first, last, shift;
+  };
+  std::array<std::array<Run, 3>, 3> runs{};
   std::array<std::size_t, 3> count{};
   for (std::size_t a = 0; a < 3; ++a)
     for (long o = -1; o <= 1; ++o) {
@@ -127,17 +146,21 @@ void visit_around(const Level& l, const Vec3& x, const PeriodicCell& cell, Visit
         k -= s * l.n[a];
       } else if (k < 0 || k >= l.n[a])
         continue;
-      at[a][count[a]] = k;
-      wraps[a][count[a]++] = s;
+      Run* const before = a == 0 && count[a] > 0 ? &runs[a][count[a] - 1] : nullptr;
+      if (before && before->shift == s && before->last + 1 == k)
+        before->last = k;
+      else
+        runs[a][count[a]++] = {k, k, s};
     }
   for (std::size_t z = 0; z < count[2]; ++z)
     for (std::size_t y = 0; y < count[1]; ++y)
       for (std::size_t q = 0; q < count[0]; ++q) {
-        const std::size_t k = l.index({at[0][q], at[1][y], at[2][z]});
-        const Shift s{static_cast<std::int16_t>(wraps[0][q]),
-                      static_cast<std::int16_t>(wraps[1][y]),
-                      static_cast<std::int16_t>(wraps[2][z])};
-        for (Index m = l.start[k]; m < l.start[k + 1]; ++m) visit(l.member[m], s);
+        const Run &rx = runs[0][q], &ry = runs[1][y], &rz = runs[2][z];
+        visit(l.start[l.index({rx.first, ry.first, rz.first})],
+              l.start[l.index({rx.last, ry.first, rz.first}) + 1],
+              Shift{static_cast<std::int16_t>(rx.shift),
+                    static_cast<std::int16_t>(ry.shift),
+                    static_cast<std::int16_t>(rz.shift)});
       }
 }
 
@@ -179,11 +202,13 @@ std::vector<char> near_owned(const Particles& p, const Wrapped& w, const Periodi
 
 } // namespace
 
-std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, double range)
+std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, double range,
+                             const std::vector<double>& extra)
 {
   if (p.size() == 0) return {};
+  const Reach reach_of{p, range, extra};
   double largest = 0.0;
-  for (const ParticleState& b : p.state) largest = std::max(largest, reach_of(b, range));
+  for (std::size_t i = 0; i < p.size(); ++i) largest = std::max(largest, reach_of(i));
   for (int a = 0; a < 3; ++a)
     require(cell.size[a] == 0.0 || cell.size[a] >= 4.0 * largest,
             "the periodic cell is too small: edge " + std::to_string(cell.size[a]) +
@@ -199,7 +224,7 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
     if (!is_near[i]) continue;
     low = low.cwiseMin(w.x[i]);
     high = high.cwiseMax(w.x[i]);
-    const double reach = reach_of(p.state[i], range);
+    const double reach = reach_of(i);
     const auto l =
         static_cast<std::size_t>(std::clamp(std::ilogb(largest / reach), 0, finest_level));
     if (l >= levels.size()) levels.resize(l + 1);
@@ -208,29 +233,34 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
     level_of[i] = l;
   }
   for (Level& l : levels)
-    if (!l.all.empty()) sort_into_cells(l, w, cell, low, high);
+    if (!l.all.empty()) sort_into_cells(l, w, reach_of, cell, low, high);
 
   std::vector<Pair> found;
   for (Index i = 0; i < p.size(); ++i) {
     if (!is_near[i]) continue;
     const bool is_mine = p.owns(i);
-    const double reach_i = reach_of(p.state[i], range);
+    const double reach_i = reach_of(i);
     for (std::size_t k = 0; k <= level_of[i]; ++k) {
       const Level& l = levels[k];
       if (l.all.empty()) continue;
       const bool same = k == level_of[i];
-      visit_around(l, w.x[i], cell, [&](Index j, const Shift& s) {
-        if ((same && j <= i) || !(is_mine || p.owns(j))) return;
-        const double reach = reach_i + reach_of(p.state[j], range);
-        if ((w.x[j] + cell.offset(s) - w.x[i]).squaredNorm() >= reach * reach) return;
-        Pair q{i, j, {}};
-        for (std::size_t a = 0; a < 3; ++a)
-          q.shift[a] = static_cast<std::int16_t>(s[a] - w.shift[j][a] + w.shift[i][a]);
-        if (j < i) {
-          std::swap(q.i, q.j);
-          for (auto& a : q.shift) a = static_cast<std::int16_t>(-a);
+      visit_around(l, w.x[i], cell, [&](Index first, Index end, const Shift& s) {
+        const Vec3 x = w.x[i] - cell.offset(s);
+        for (Index m = first; m < end; ++m) {
+          const Level::Member& other = l.member[m];
+          const double reach = reach_i + other.reach;
+          if ((other.x - x).squaredNorm() >= reach * reach) continue;
+          const Index j = other.i;
+          if ((same && j <= i) || !(is_mine || p.owns(j))) continue;
+          Pair q{i, j, {}};
+          for (std::size_t a = 0; a < 3; ++a)
+            q.shift[a] = static_cast<std::int16_t>(s[a] - w.shift[j][a] + w.shift[i][a]);
+          if (j < i) {
+            std::swap(q.i, q.j);
+            for (auto& a : q.shift) a = static_cast<std::int16_t>(-a);
+          }
+          found.push_back(q);
         }
-        found.push_back(q);
       });
     }
   }
@@ -240,24 +270,53 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
 double VerletList::travel(const Particles& p) const
 {
   if (x_built_.size() != p.size()) return std::numeric_limits<double>::infinity();
-  double max2 = 0.0; // of the motion over S
+  double largest = 0.0; // of the motion over S, beyond what the steps so far had to spare
+  const double share = static_cast<double>(std::min(n_steps_since_built_, steps_of_flight)) /
+                       static_cast<double>(steps_of_flight);
   p.for_owned([&](Index i) {
-    const double S = p.state[i].S;
-    max2 = std::max(
-        max2,
-        (p.state[i].x - x_built_[i].cwiseProduct(since_built_.stretch)).squaredNorm() /
-            (S * S));
+    const ParticleState& b = p.state[i];
+    const double extra = extra_.empty() ? 0.0 : share * extra_[i];
+    const double most = largest * b.S + extra;
+    const double moved2 =
+        (b.x - x_built_[i].cwiseProduct(since_built_.stretch)).squaredNorm();
+    if (moved2 > most * most) largest = (std::sqrt(moved2) - extra) / b.S;
   });
-  return std::sqrt(max2);
+  return largest;
+}
+
+void VerletList::allow_for_flight(const Particles& p, double dt)
+{
+  constexpr double largest_share = 0.02; // of the particles: more are no debris
+  constexpr double farthest = 2.0;       // over R
+  extra_.assign(p.size(), 0.0);
+  spare_.clear();
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const ParticleState& b = p.state[i];
+    const double way = b.v.norm() * dt * static_cast<double>(steps_of_flight);
+    if (way <= 0.5 * skin_ * b.S) continue;
+    extra_[i] = std::min(way, farthest * b.R);
+    ++n;
+  }
+  if (n == 0 || static_cast<double>(n) > largest_share * static_cast<double>(p.size())) {
+    extra_.clear();
+    return;
+  }
+  for (const double extra : extra_)
+    spare_.push_back(extra / static_cast<double>(steps_of_flight));
 }
 
 void VerletList::rebuild(const Particles& p, const PeriodicCell& cell, const Bonds& bonds,
-                         Contacts& contacts)
+                         Contacts& contacts, double dt)
 {
+  extra_.clear();
+  spare_.clear();
+  // An extra reach would need a wider cell (smallest_edge()).
+  if (dt > 0.0 && !cell.is_periodic()) allow_for_flight(p, dt);
   Contacts fresh;
   auto bonded = bonds.pairs.begin();
   std::size_t old = 0;
-  for (const Pair& q : find_pairs(p, cell, g_a_ + skin_)) {
+  for (const Pair& q : find_pairs(p, cell, g_a_ + skin_, extra_)) {
     while (bonded != bonds.pairs.end() && *bonded < q) ++bonded;
     if (bonded != bonds.pairs.end() && *bonded == q) continue;
     while (old < contacts.pairs.size() && contacts.pairs[old] < q) ++old;
@@ -276,6 +335,7 @@ void VerletList::rebuild(const Particles& p, const PeriodicCell& cell, const Bon
   }
   longest_reach_ = 2.0 * largest + g_a_ + skin_;
   since_built_ = {};
+  n_steps_since_built_ = 0;
   is_narrowed_ = false;
   ++n_builds_;
 }
@@ -287,12 +347,16 @@ void VerletList::narrow(const Particles& p, const PeriodicCell& cell, Contacts& 
   constexpr double steps_between_narrowings = 16.0;
   margin_ =
       std::clamp(2.0 * last_motion_ * steps_between_narrowings, skin_ / 32.0, skin_ / 4.0);
+  std::vector<double> flight;
+  for (const double spare : spare_)
+    flight.push_back(spare * static_cast<double>(steps_of_narrowed_flight));
   std::vector<Index> close;
   contacts.is_narrowed = false;
-  choose_contacts(g_a_ + margin_, cell, p, contacts, close);
+  choose_contacts(g_a_ + margin_, cell, p, contacts, close, flight);
   contacts.close = std::move(close);
   contacts.is_narrowed = true;
   since_narrowed_ = {};
+  n_steps_since_narrowed_ = 0;
   is_narrowed_ = true;
 }
 

@@ -9,14 +9,17 @@
 
 namespace mergel::dem {
 
-/// All pairs with gap < range (S_i + S_j)/2 and at least one owned particle, ascending. The
+/// All pairs with gap < range (S_i + S_j)/2 + extra_i + extra_j and at least one owned
+/// particle, ascending. The
 /// particles are sorted into cells by size class, a factor of two per class: the cost is
 /// linear in the number of particles at any ratio of diameters.
 ///
 /// @param range gap at S = 1 [m], >= 0
+/// @param extra by particle [m], >= 0; empty: none
 /// @throws InputError when a periodic edge is shorter than four times the largest reach
 ///   R + range S/2, so that a particle could act on its own image
-std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, double range);
+std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, double range,
+                             const std::vector<double>& extra = {});
 
 /// Skin of a list at S = 1 over the diameter of the smallest particle, by default [-].
 inline constexpr double default_skin = 0.3;
@@ -43,10 +46,20 @@ public:
   /// @param g_a activation gap; @param skin margin. Both at S = 1 [m]; both scale with S
   VerletList(double g_a, double skin) : g_a_(g_a), skin_(skin) {}
 
+  /// Of the motion of each particle in a step the part that the list allows for beside the
+  /// skin [m]; empty: none.
+  const std::vector<double>& spare() const { return spare_; }
+  /// The same for all steps_of_flight steps.
+  const std::vector<double>& extra() const { return extra_; }
+
   /// Report that since the last call no particle of any rank moved by more than `most` S
   /// [m]. To be called after every motion of particles, or else invalidate().
+  /// The motion is that beyond spare().
   void add_motion(double most)
   {
+    ++n_steps_since_built_;
+    ++n_steps_since_narrowed_;
+    if (n_steps_since_built_ == steps_of_flight) spare_.clear();
     last_motion_ = most;
     since_built_.motion += most;
     since_narrowed_.motion += most;
@@ -64,8 +77,8 @@ public:
   {
     return x_built_.size() != p.size() || since_built_.motion > allowance();
   }
-  /// Largest motion over S of an owned particle relative to the cell since the last build
-  /// [m]; infinite without a build.
+  /// Largest motion over S of an owned particle relative to the cell since the last build,
+  /// beyond what it had to spare [m]; infinite without a build.
   double travel(const Particles& p) const;
   /// True when a particle moved by half its skin. @param largest global max of travel() [m]
   bool is_stale(double largest)
@@ -84,13 +97,20 @@ public:
 
   /// Replace the pairs of `contacts`, without those that were ever bonded. Pairs that
   /// remain keep their shear force.
+  ///
+  /// A few particles that fly much faster than the others, debris, would make the list of
+  /// all of them stale. Each of them gets an extra reach instead, its way in
+  /// steps_of_flight steps. Velocities must be the same on all ranks.
+  /// @param dt time step [s]; 0: no extra reach
   void rebuild(const Particles& p, const PeriodicCell& cell, const Bonds& bonds,
-               Contacts& contacts);
+               Contacts& contacts, double dt = 0.0);
 
   /// True when a pair that is not close may act.
   bool is_narrowing_stale() const
   {
-    return !is_narrowed_ || since_narrowed_.largest(longest_reach_) > margin_;
+    return !is_narrowed_ ||
+           (!spare_.empty() && n_steps_since_narrowed_ >= steps_of_narrowed_flight) ||
+           since_narrowed_.largest(longest_reach_) > margin_;
   }
   /// Choose the close contacts: those with a gap below (g_a + margin) S, or with a shear
   /// force. Most candidates are neither, and are not examined until this is stale, some 16
@@ -127,8 +147,14 @@ private:
     return 0.5 * (skin_ - since_built_.shortening() * longest_reach_);
   }
 
+  static constexpr std::size_t steps_of_flight = 300, steps_of_narrowed_flight = 32;
+
+  void allow_for_flight(const Particles& p, double dt);
+
   double g_a_, skin_;
   std::vector<Vec3> x_built_;
+  std::vector<double> extra_, spare_;
+  std::size_t n_steps_since_built_ = 0, n_steps_since_narrowed_ = 0;
   double longest_reach_ = 0.0; ///< bound of (R_i + R_j)/S + g_a + skin [m]
   double smallest_skin_ = 0.0; ///< of the smallest S [m]
   Approach since_built_, since_narrowed_;

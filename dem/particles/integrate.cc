@@ -97,10 +97,13 @@ private:
   throw NumericalError(who + " turns by " + std::to_string(rotated) + " rad" + remedy);
 }
 
-/// Moves the particles and keeps their largest motion over S.
+/// Moves the particles and keeps their largest motion over S, less what is spare.
 class Drift {
 public:
-  Drift(Particles& p, double dt) : p_(p), dt_(dt) {}
+  Drift(Particles& p, double dt, const std::vector<double>& spare)
+      : p_(p), dt_(dt), spare_(spare.empty() ? nullptr : spare.data())
+  {
+  }
 
   void operator()(Index i)
   {
@@ -111,16 +114,18 @@ public:
         !(b.omega.squaredNorm() * dt_ * dt_ <= 0.05 * 0.05))
       refuse_motion(p_, i, dt_);
     b.x += dx;
-    const double S2 = b.S * b.S;
-    if (moved2 > largest2_ * S2) largest2_ = moved2 / S2; // seldom
+    const double spare = spare_ ? spare_[i] : 0.0;
+    const double most = largest_ * b.S + spare;
+    if (moved2 > most * most) largest_ = (std::sqrt(moved2) - spare) / b.S; // seldom
   }
 
-  double largest() const { return std::sqrt(largest2_); } ///< [m]
+  double largest() const { return largest_; } ///< [m]
 
 private:
   Particles& p_;
   const double dt_;
-  double largest2_ = 0.0;
+  const double* const spare_;
+  double largest_ = 0.0;
 };
 
 } // namespace
@@ -133,15 +138,15 @@ void kick(Particles& p, const Motion& motion, double dt, KickWork& work)
 
 void drift(Particles& p, double dt)
 {
-  Drift drift_one(p, dt);
+  Drift drift_one(p, dt, {});
   p.for_owned([&](Index i) { drift_one(i); });
 }
 
 double kick_and_drift(Particles& p, const Motion& motion, double dt_kick, double dt,
-                      KickWork& work)
+                      KickWork& work, const std::vector<double>& spare)
 {
   Kick kick_one(p, motion, dt_kick, work);
-  Drift drift_one(p, dt);
+  Drift drift_one(p, dt, spare);
   p.for_owned([&](Index i) {
     kick_one(i);
     p.load[i] = Load{};

@@ -61,10 +61,11 @@ void kick(Particles& p, const Motion& motion, double dt, KickWork& work);
 ///   in the step, or when its motion is not finite
 void drift(Particles& p, double dt);
 
-/// kick() over dt_kick and drift() over dt [s] in one pass. Returns the largest motion over
-/// S [m].
+/// kick() over dt_kick and drift() over dt [s] in one pass; leaves the loads at zero.
+/// Returns the largest motion over S [m].
+/// @param spare part of the motion of each particle that does not count [m]; empty: none
 double kick_and_drift(Particles& p, const Motion& motion, double dt_kick, double dt,
-                      KickWork& work);
+                      KickWork& work, const std::vector<double>& spare = {});
 
 /// Set the loads of owned particles and ghosts to zero.
 void clear_loads(Particles& p);

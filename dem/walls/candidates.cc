@@ -217,7 +217,8 @@ std::optional<NearestPoint> nearest_point(const Wall& wall,
   return nearest;
 }
 
-void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double skin)
+void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double skin,
+                  const std::vector<double>& extra)
 {
   std::vector<WallContact> found;
   std::vector<ListedCandidate> listed;
@@ -252,7 +253,8 @@ void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double s
   std::vector<NearTriangle> hits;
   p.for_owned([&](Index i) {
     const ParticleState& b = p.state[i];
-    const double reach = b.R + (activation_gap(wall.material) + skin) * b.S;
+    const double reach = b.R + (activation_gap(wall.material) + skin) * b.S +
+                         (extra.empty() ? 0.0 : extra[i]);
     hits.clear();
     auto ball = std::lower_bound(balls.begin(), balls.end(), b.x.z() - reach - r_max,
                                  [](const BoundingSphere& a, double z) { return a.z < z; });
@@ -269,10 +271,12 @@ void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double s
     for (const NearTriangle& hit : hits) {
       if (found.empty() || found.back().particle != i || found.back().wall != hit.patch) {
         found.push_back({i, hit.patch, Vec3::Zero(), 0.0});
-        listed.push_back({b.x, {}});
+        listed.emplace_back().x = b.x;
       }
       const double beyond = b.R + activation_gap(wall.material) * b.S;
-      listed.back().near.push_back({hit.triangle, std::sqrt(hit.distance2) - beyond});
+      const double clearance = std::sqrt(hit.distance2) - beyond;
+      listed.back().near.push_back({hit.triangle, clearance});
+      listed.back().clearance = std::min(listed.back().clearance, clearance);
     }
   });
   wall.contacts = carry_history(std::move(found), wall.contacts);

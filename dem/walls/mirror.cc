@@ -18,14 +18,16 @@ double image_gap(const ParticleState& b)
 namespace {
 
 /// Candidates with a gap below `reach` S [m].
-void list_pairs(Mirror& mirror, const Particles& p, double reach)
+void list_pairs(Mirror& mirror, const Particles& p, double reach,
+                const std::vector<double>& extra)
 {
   std::vector<MirrorPair> pairs;
   auto old = mirror.pairs.begin();
   p.for_owned([&](Index i) {
     while (old != mirror.pairs.end() && old->particle < i) ++old;
     const bool known = old != mirror.pairs.end() && old->particle == i;
-    const bool near = image_gap(p.state[i]) < reach * p.state[i].S;
+    const double flight = extra.empty() ? 0.0 : 2.0 * extra[i]; // of particle and image
+    const bool near = image_gap(p.state[i]) < reach * p.state[i].S + flight;
     if (known && (near || old->bond.intact > 0.0))
       pairs.push_back(*old);
     else if (near)
@@ -37,15 +39,15 @@ void list_pairs(Mirror& mirror, const Particles& p, double reach)
 } // namespace
 
 void rebuild_wall(Mirror& mirror, const PairMaterials& material, const Particles& p,
-                  double skin)
+                  double skin, const std::vector<double>& extra)
 {
-  list_pairs(mirror, p, activation_gap(material.contact) + 2.0 * skin);
+  list_pairs(mirror, p, activation_gap(material.contact) + 2.0 * skin, extra);
 }
 
 void bond_to_mirror(Mirror& mirror, Particles& p, double limit)
 {
   if (!mirror.pairs.empty()) throw std::logic_error("this mirror is bonded already");
-  list_pairs(mirror, p, limit);
+  list_pairs(mirror, p, limit, {});
   for (MirrorPair& m : mirror.pairs) {
     ParticleState& b = p.state[m.particle];
     m.gap_0 = image_gap(b);

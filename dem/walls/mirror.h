@@ -32,7 +32,7 @@ struct Mirror {
 
 /// Candidates: gap to the image below (g_a + skin) S; bonded pairs always stay.
 void rebuild_wall(Mirror& mirror, const PairMaterials& material, const Particles& p,
-                  double skin);
+                  double skin, const std::vector<double>& extra = {});
 
 /// Bond each particle whose gap to its image is below limit S [m]; of its spin only the y
 /// component is kept. Once for a mirror, else std::logic_error.

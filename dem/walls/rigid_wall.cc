@@ -30,7 +30,8 @@ SurfacePoint closest_point(const RigidWall& wall, const ParticleState& b)
                     wall.shape);
 }
 
-void rebuild_wall(RigidWall& wall, const PairMaterials&, const Particles& p, double skin)
+void rebuild_wall(RigidWall& wall, const PairMaterials&, const Particles& p, double skin,
+                  const std::vector<double>& extra)
 {
   std::vector<WallContact> near;
   const double reach = activation_gap(wall.material) + skin;
@@ -40,7 +41,8 @@ void rebuild_wall(RigidWall& wall, const PairMaterials&, const Particles& p, dou
           const ParticleState& b = p.state[i];
           const double gap =
               with_particle_id(p.id[i], [&] { return shape.closest_point(b, wall.x).gap; });
-          if (gap < reach * b.S) near.push_back({.particle = i});
+          if (gap < reach * b.S + (extra.empty() ? 0.0 : extra[i]))
+            near.push_back({.particle = i});
         });
       },
       wall.shape);

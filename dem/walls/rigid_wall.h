@@ -49,11 +49,12 @@ RigidWall make_rigid_wall(RigidShape shape, const Vec3& x, const ContactLaw& mat
 /// @throws NumericalError for a centre inside the wall
 SurfacePoint closest_point(const RigidWall& wall, const ParticleState& b);
 
-/// Find the candidates: particles whose gap to the wall is below (g_a + skin) S. They hold
-/// until a particle or the wall has moved by half of skin S.
+/// Find the candidates: particles whose gap to the wall is below (g_a + skin) S plus their
+/// extra reach (VerletList). They hold until a particle or the wall has moved by half of
+/// skin S.
 /// @throws NumericalError naming a particle whose centre is inside the wall
 void rebuild_wall(RigidWall& wall, const PairMaterials& material, const Particles& p,
-                  double skin);
+                  double skin, const std::vector<double>& extra = {});
 
 /// Motion of the wall since the candidates were found [m].
 double travel(const RigidWall& wall);

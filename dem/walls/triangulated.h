@@ -7,6 +7,7 @@
 
 #include <array>
 #include <concepts>
+#include <limits>
 #include <optional>
 #include <tuple>
 #include <vector>
@@ -57,6 +58,16 @@ struct ListedCandidate {
   };
   Vec3 x = Vec3::Zero();  ///< of the particle then [m]
   std::vector<Near> near; ///< triangles of the patch within reach, ascending
+  double clearance = std::numeric_limits<double>::infinity(); ///< the smallest one [m]
+
+  /// Whether no triangle can be in contact. Most candidates end here.
+  /// @param wall_travel bound of the motion of a node since then [m]
+  bool is_apart(const ParticleState& particle, double wall_travel) const
+  {
+    // Round-off of the distances is far below a millionth of a radius.
+    const double left = clearance - wall_travel - 1e-6 * particle.R;
+    return left > 0.0 && (particle.x - x).squaredNorm() < left * left;
+  }
 };
 
 /// A bond between a particle and a point of a wall: N and V, no moment; bond length l = R.
@@ -135,10 +146,11 @@ std::optional<NearestPoint> nearest_point(const Wall& wall,
 /// Call it after x changed and before patch_contact() or add_wall_forces().
 void update_normals(Wall& wall);
 
-/// Find the candidates: particles whose gap to a triangle is below (g_a + skin) S. They
-/// hold until a particle or a node has moved by half of skin S.
+/// Find the candidates: particles whose gap to a triangle is below (g_a + skin) S plus their
+/// extra reach (VerletList). They hold until a particle or a node has moved by half of
+/// skin S.
 void rebuild_wall(Wall& wall, const PairMaterials& material, const Particles& p,
-                  double skin);
+                  double skin, const std::vector<double>& extra = {});
 
 /// Largest motion of a node since the candidates were found [m]; infinite before that.
 double travel(const Wall& wall);
