@@ -96,9 +96,11 @@ void add_contacts(Wall& wall, const Law& law, double dt, Particles& p, PairLosse
   for (std::size_t c = 0; c < wall.contacts.size(); ++c) {
     WallContact& contact = wall.contacts[c];
     ParticleState& particle = p.state[contact.particle];
-    const auto patch = with_particle_id(p.id[contact.particle], [&] {
-      return patch_contact(wall, wall.listed[c], particle, moved);
-    });
+    std::optional<PatchContact> patch;
+    if (!wall.listed[c].is_apart(particle, moved))
+      patch = with_particle_id(p.id[contact.particle], [&] {
+        return patch_contact(wall, wall.listed[c], particle, moved);
+      });
     if (!patch) {
       if (contact.f_s != Vec3::Zero()) // the contact opens and loses its shear energy
         losses.slip.add(shear_energy(law, particle.R, contact));
