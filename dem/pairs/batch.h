@@ -18,12 +18,45 @@ inline Row row(const double* four)
   return r;
 }
 
+/// The pairs of one batch. Missing pairs of the last batch repeat the last pair; they are
+/// not scattered.
+class Batch {
+public:
+  /// The pairs from `first` up to `end`, or those whose numbers `which` has there.
+  [[gnu::always_inline]] Batch(const std::vector<Pair>& pairs, const Index* which,
+                               std::size_t first, std::size_t end)
+      : count(static_cast<int>(std::min<std::size_t>(n_lanes, end - first)))
+  {
+    if (!which && count == n_lanes) { // as they lie: a copy would cost more than the rest
+      pairs_ = &pairs[first];
+      return;
+    }
+    for (int l = 0; l < n_lanes; ++l) {
+      const std::size_t k = first + static_cast<std::size_t>(std::min(l, count - 1));
+      copies_[l] = pairs[which ? which[k] : k];
+    }
+    pairs_ = copies_;
+  }
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
+
+  const Pair& operator[](int l) const { return pairs_[l]; }
+
+  int count; ///< without padding
+
+private:
+  const Pair* pairs_;
+  Pair copies_[n_lanes];
+};
+
 /// One particle of each pair of a batch, transposed from the records.
-[[gnu::always_inline]] inline End<Lanes> gather(const ParticleState* state, const Index* at)
+/// @param end the one of each pair, &Pair::i or &Pair::j
+[[gnu::always_inline]] inline End<Lanes> gather(const ParticleState* state, const Batch& q,
+                                                Index Pair::*end)
 {
   const auto rows = [&](auto member, Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
     Row r[n_lanes];
-    for (int l = 0; l < n_lanes; ++l) r[l] = row((state[at[l]].*member).data());
+    for (int l = 0; l < n_lanes; ++l) r[l] = row((state[q[l].*end].*member).data());
     columns(r, a, b, c, d);
   };
   End<Lanes> e;
@@ -65,37 +98,15 @@ inline void add_row(double* four, Row a)
 
 /// Add the lanes to the particles one after the other: each particle adds its pairs in
 /// their order.
-[[gnu::always_inline]] inline void scatter(Load* load, const Index* i, const Index* j,
-                                           int count, const Rows& r)
+[[gnu::always_inline]] inline void scatter(Load* load, const Batch& q, const Rows& r)
 {
-  for (int l = 0; l < count; ++l) {
-    add_row(load[i[l]].f.data(), r.f[l]);
-    add_row(load[i[l]].t.data(), r.t_i[l]);
-    add_row(load[j[l]].f.data(), -r.f[l]);
-    add_row(load[j[l]].t.data(), r.t_j[l]);
+  for (int l = 0; l < q.count; ++l) {
+    Load &on_i = load[q[l].i], &on_j = load[q[l].j];
+    add_row(on_i.f.data(), r.f[l]);
+    add_row(on_i.t.data(), r.t_i[l]);
+    add_row(on_j.f.data(), -r.f[l]);
+    add_row(on_j.t.data(), r.t_j[l]);
   }
-}
-
-/// The pairs of one batch. Missing pairs of the last batch repeat the last pair; they are
-/// not scattered.
-struct Batch {
-  Index i[n_lanes], j[n_lanes];
-  int count;
-};
-
-[[gnu::always_inline]] inline Batch batch_of(const std::vector<Pair>& pairs,
-                                             const Index* which, std::size_t first,
-                                             std::size_t end)
-{
-  Batch q;
-  q.count = static_cast<int>(std::min<std::size_t>(n_lanes, end - first));
-  for (int l = 0; l < n_lanes; ++l) {
-    const std::size_t k = first + static_cast<std::size_t>(std::min(l, q.count - 1));
-    const Pair& pair = pairs[which ? which[k] : k];
-    q.i[l] = pair.i;
-    q.j[l] = pair.j;
-  }
-  return q;
 }
 
 /// The pairs that count on this rank: those that are no padding and whose first particle it
@@ -105,19 +116,16 @@ inline Mask counted(const Batch& q, const Particles& p)
   unsigned bits = (1u << q.count) - 1u;
   if (p.n_owned() != p.size()) {
     unsigned owned = 0;
-    for (int l = 0; l < n_lanes; ++l) owned |= static_cast<unsigned>(p.owns(q.i[l])) << l;
+    for (int l = 0; l < n_lanes; ++l) owned |= static_cast<unsigned>(p.owns(q[l].i)) << l;
     bits &= owned;
   }
   return lanes_of(bits);
 }
 
-inline void shift_images(const std::vector<Pair>& pairs, const Index* which,
-                         std::size_t first, const Batch& q, const PeriodicCell& cell,
-                         Triple<Lanes>& x)
+inline void shift_images(const Batch& q, const PeriodicCell& cell, Triple<Lanes>& x)
 {
   for (int l = 0; l < q.count; ++l) {
-    const std::size_t k = first + static_cast<std::size_t>(l);
-    const Shift& shift = pairs[which ? which[k] : k].shift;
+    const Shift& shift = q[l].shift;
     if ((shift[0] | shift[1] | shift[2]) == 0) continue; // x + 0 is x
     const Vec3 offset = cell.offset(shift);
     x.x[l] += offset.x();

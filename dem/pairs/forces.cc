@@ -32,17 +32,16 @@ void add_bonded_pairs(const Law& law, const Contact& contact_law, const Periodic
     for (std::size_t a = first + prefetch_ahead; a < first + prefetch_ahead + n_lanes; ++a)
       if (a < n) prefetch(p, bonds.pairs[a].j);
 
-    const Batch q = batch_of(bonds.pairs, nullptr, first, n);
-    const End<Lanes> i = gather(p.state.data(), q.i);
-    End<Lanes> j = gather(p.state.data(), q.j);
-    if (is_periodic) shift_images(bonds.pairs, nullptr, first, q, cell, j.x);
+    const Batch q(bonds.pairs, nullptr, first, n);
+    const End<Lanes> i = gather(p.state.data(), q, &Pair::i);
+    End<Lanes> j = gather(p.state.data(), q, &Pair::j);
+    if (is_periodic) shift_images(q, cell, j.x);
     if (is_strain_controlled) add_cell_motion(rate, i, j);
     const PairMotion<Lanes> k = pair_motion(i, j, dt);
 
-    const PairForce on_i =
-        pair_force<Strengths>(bond, beside, q, i, j, k, bonds.blocks[first / n_lanes],
-                              &bonds.pairs[first], p, losses);
-    scatter(p.load.data(), q.i, q.j, q.count, to_rows(k, on_i.F, on_i.M));
+    const PairForce on_i = pair_force<Strengths>(bond, beside, q, i, j, k,
+                                                 bonds.blocks[first / n_lanes], p, losses);
+    scatter(p.load.data(), q, to_rows(k, on_i.F, on_i.M));
     if (is_strain_controlled) add_virial(k.n * (k.a_i + k.a_j), on_i.F, q, p, losses);
   }
 }
@@ -64,10 +63,10 @@ void add_other_pairs(const Contact& contact_law, const PeriodicCell& cell, doubl
         prefetch(p, contacts.pairs[which[a]].j);
         __builtin_prefetch(&contacts.shear[which[a]], 1);
       }
-    const Batch q = batch_of(contacts.pairs, which.data(), first, n);
-    const End<Lanes> i = gather(p.state.data(), q.i);
-    End<Lanes> j = gather(p.state.data(), q.j);
-    if (is_periodic) shift_images(contacts.pairs, which.data(), first, q, cell, j.x);
+    const Batch q(contacts.pairs, which.data(), first, n);
+    const End<Lanes> i = gather(p.state.data(), q, &Pair::i);
+    End<Lanes> j = gather(p.state.data(), q, &Pair::j);
+    if (is_periodic) shift_images(q, cell, j.x);
     if (is_strain_controlled) add_cell_motion(rate, i, j);
     const PairMotion<Lanes> k = pair_motion(i, j, dt);
 
@@ -84,7 +83,7 @@ void add_other_pairs(const Contact& contact_law, const PeriodicCell& cell, doubl
     const auto contact = step_contact(law, q, i, j, k, f_s, p, losses);
     const Triple<Lanes> F = contact.f_s - k.n * contact.f_n;
     const Rows rows = to_rows(k, F, Triple<Lanes>{});
-    scatter(p.load.data(), q.i, q.j, q.count, rows);
+    scatter(p.load.data(), q, rows);
     if (is_strain_controlled) add_virial(k.n * (k.a_i + k.a_j), F, q, p, losses);
     for (int l = 0; l < q.count; ++l)
       contacts.shear[which[first + static_cast<std::size_t>(l)]].f_s = vec3(lane(f_s, l));

@@ -271,8 +271,9 @@ double VerletList::travel(const Particles& p) const
 {
   if (x_built_.size() != p.size()) return std::numeric_limits<double>::infinity();
   double largest = 0.0; // of the motion over S, beyond what the steps so far had to spare
-  const double share = static_cast<double>(std::min(n_steps_since_built_, steps_of_flight)) /
-                       static_cast<double>(steps_of_flight);
+  const double share =
+      static_cast<double>(std::min(n_steps_since_built_, steps_of_flight)) /
+      static_cast<double>(steps_of_flight);
   p.for_owned([&](Index i) {
     const ParticleState& b = p.state[i];
     const double extra = extra_.empty() ? 0.0 : share * extra_[i];

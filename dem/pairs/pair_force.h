@@ -52,7 +52,7 @@ struct VariableStrengths {
                                             const Batch& q, const Particles& p)
   {
     Lanes f;
-    for (int l = 0; l < n_lanes; ++l) f[l] = strength_between(p, q.i[l], q.j[l]); // > 0
+    for (int l = 0; l < n_lanes; ++l) f[l] = strength_between(p, q[l].i, q[l].j); // > 0
     return ~is_elastic(law, shape, load * (1.0 / f));
   }
   template <IsBondLaw Law>
@@ -63,23 +63,22 @@ struct VariableStrengths {
 };
 
 /// Return the lanes whose trial is outside the yield surface, one at a time.
-/// @param pairs of the lanes
 template <class Strengths, IsBondLaw Law>
 void return_lanes(const Law& law, const BondShape<Lanes>& s, const Lanes& S,
                   const Mask& yields, const Batch& q, const EffectiveLoads<Lanes>& old,
-                  EffectiveLoads<Lanes>& load, BondBlock& h, const Pair* pairs,
-                  Particles& p, PairLosses& losses)
+                  EffectiveLoads<Lanes>& load, BondBlock& h, Particles& p,
+                  PairLosses& losses)
 {
   for (int l = 0; l < q.count; ++l) {
     if (!yields[l]) continue;
     const BondShape<double> shape{s.R_b[l], s.A[l], s.k_n[l], s.k_s[l], s.k_b[l], s.k_t[l]};
-    const auto loads = [l](const EffectiveLoads<Lanes>& q) {
-      return EffectiveLoads<double>{q.N[l], lane(q.V, l), lane(q.M, l), q.T[l]};
+    const auto loads = [l](const EffectiveLoads<Lanes>& of) {
+      return EffectiveLoads<double>{of.N[l], lane(of.V, l), lane(of.M, l), of.T[l]};
     };
-    const bool counts = p.owns(q.i[l]);
+    const bool counts = p.owns(q[l].i);
     EffectiveLoads<double> now = loads(load);
     BondState state{h.u_p[l], h.intact[l]};
-    const BondChange change = bond_step(Strengths::of(law, p, q.i[l], q.j[l]), shape, S[l],
+    const BondChange change = bond_step(Strengths::of(law, p, q[l].i, q[l].j), shape, S[l],
                                         loads(old), now, state, counts ? &losses : nullptr);
     load.N[l] = now.N;
     set_lane(load.V, l, now.V);
@@ -88,11 +87,11 @@ void return_lanes(const Law& law, const BondShape<Lanes>& s, const Lanes& S,
     h.u_p[l] = state.u_p;
     h.intact[l] = state.intact;
     if (!change.breaks) continue;
-    --p.n_bonds[q.i[l]];
-    --p.n_bonds[q.j[l]];
+    --p.n_bonds[q[l].i];
+    --p.n_bonds[q[l].j];
     if (counts)
       losses.breakages.push_back(
-          {pairs[l], 0.5 * (p.state[q.i[l]].x + p.state[q.j[l]].x), change.mode});
+          {q[l], 0.5 * (p.state[q[l].i].x + p.state[q[l].j].x), change.mode});
   }
 }
 
@@ -114,12 +113,11 @@ step_contact(const Contact& law, const Batch& q, const End<Lanes>& i, const End<
 }
 
 /// Bond and contact of a pair: updates the histories h of both.
-/// @param pairs of the lanes
 template <class Strengths, IsBondLaw Law, IsContactLaw Contact>
 [[gnu::always_inline]] inline PairForce
 pair_force(const Law& bond, const Contact& beside, const Batch& q, const End<Lanes>& i,
-           const End<Lanes>& j, const PairMotion<Lanes>& k, BondBlock& h, const Pair* pairs,
-           Particles& p, LoopLosses& losses)
+           const End<Lanes>& j, const PairMotion<Lanes>& k, BondBlock& h, Particles& p,
+           LoopLosses& losses)
 {
   const Lanes r = min(i.R, j.R), S = 0.5 * (i.S + j.S);
   const BondShape<Lanes> shape = bond_shape(bond, r, k.inv_L);
@@ -129,7 +127,7 @@ pair_force(const Law& bond, const Contact& beside, const Batch& q, const End<Lan
   const Mask yields = Strengths::yields(bond, shape, load, q, p) & (h.intact > Lanes{});
   if (any(yields)) {
     const EffectiveLoads<Lanes> old{load.N - shape.k_n * k.du_n, V, M, h.T};
-    return_lanes<Strengths>(bond, shape, S, yields, q, old, load, h, pairs, p, losses.all);
+    return_lanes<Strengths>(bond, shape, S, yields, q, old, load, h, p, losses.all);
   }
   const Mask lives = h.intact > Lanes{};
   const Triple<Lanes> zero{};
