@@ -226,6 +226,7 @@ void press(Cube& cube, Growth& growth, double contacts)
       b.R *= swell;
       b.m = sphere_mass(b.R, rho);
     }
+    growth.sizes_changed();
   }
   throw NumericalError("workload W2: the particles do not reach " +
                        std::to_string(contacts) + " contacts per particle");

@@ -69,7 +69,8 @@ public:
       : spec_(s), full_(packing.particles.state),
         assembly_(make_assembly(s, packing, friction)), volume_(volume(s.region)),
         growth_allowed_(growth_reserve * s.sizes.smallest() /
-                        (s.sizes.largest() + activation_gap(s.contact)))
+                        (s.sizes.largest() + activation_gap(s.contact) +
+                         default_skin * s.sizes.smallest())) // the skin grows too
   {
     resize(share);
     if (comm != MPI_COMM_NULL) distribute(assembly_, comm);

@@ -28,7 +28,10 @@ public:
   /// rank has the positions of its own particles and of those near them.
   double sweep(double size);
 
-  /// Give every rank all positions, and all particles as its own.
+  /// To be called after R or S of particles have changed, and not during a sweep.
+  void sizes_changed() { x_listed_.clear(); }
+
+  /// Give every rank all positions, and all particles as its own: the end of the sweeps.
   void gather();
 
   /// Overlapping pairs in the last sweep.
