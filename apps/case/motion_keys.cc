@@ -18,12 +18,13 @@ void declare(CaseFile& file, const MotionKeys& keys)
             "Let particles without an intact bond rotate; in the paper they do not.");
   file.number("inertia factor", keys.inertia_factor, between(0.1, 100.0),
               "Moments of inertia in the equations of motion over the true ones. Where "
-              "rotation rules the step, more of it lengthens the step. Compare with 1: a "
-              "quasi-static result must not depend on it.");
-  file.number("mass scaling", keys.mass_scaling.gain, between(1.0, 10.0),
-              "Wanted gain of the time step: the few particles that rule it get mass and "
-              "moment of inertia, but no weight. 1: none. Compare with 1: a quasi-static "
-              "result must not depend on it.");
+              "rotation rules the step, more of it lengthens the step. Compare with 1: 2 "
+              "raises the q_c of pile_small by a tenth.");
+  file.number(
+      "mass scaling", keys.mass_scaling.gain, between(1.0, 10.0),
+      "Wanted gain of the time step: the few particles that rule it get mass and "
+      "moment of inertia, but no weight. 1: none. Compare with 1: 1.5 raises the q_c "
+      "of pile_small by a tenth, 1.26 within its scatter.");
   file.number("mass scaling limit", keys.mass_scaling.largest_share, non_negative,
               "Largest share of mass that the particles of one zone of S may gain.");
 }
