@@ -124,7 +124,7 @@ void add_forces_to_cleared(Assembly& assembly, double dt)
   for (Wall& w : assembly.walls) update_normals(w);
   if (lists_are_stale(assembly))
     rebuild_lists(assembly, dt); // walls are the same on all ranks
-  if (assembly.list.is_narrowing_stale())
+  if (assembly.list.is_narrowing_stale(assembly.contacts))
     assembly.list.narrow(p, assembly.cell, assembly.contacts);
   assembly.losses.virial.clear();
   lap(assembly.times.lists);

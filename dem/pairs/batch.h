@@ -42,7 +42,7 @@ public:
 
   const Pair& operator[](int l) const { return pairs_[l]; }
 
-  int count; ///< without padding
+  const int count; ///< without padding
 
 private:
   const Pair* pairs_;

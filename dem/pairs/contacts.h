@@ -18,9 +18,8 @@ struct alignas(32) ContactShear {
 struct Contacts {
   std::vector<Pair> pairs; ///< ascending
   std::vector<ContactShear> shear;
-  /// Numbers of the pairs that may act until the list is narrowed again, where it is.
-  std::vector<Index> close;
-  bool is_narrowed = false; ///< otherwise any pair may act (VerletList::narrow())
+  std::vector<Index> close; ///< numbers of the pairs that may act (VerletList::narrow())
+  bool is_narrowed = false; ///< whether they were chosen; otherwise any pair may act
 };
 
 /// Write the numbers of the pairs whose gap is below `range` S, or that still have a shear

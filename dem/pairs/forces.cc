@@ -19,9 +19,9 @@ namespace {
 
 template <class Strengths, IsBondLaw Law, IsContactLaw Contact>
 void add_bonded_pairs(const Law& law, const Contact& contact_law, const PeriodicCell& cell,
-                      double dt, Particles& p, Bonds& bonds, PairLosses& of_all)
+                      double dt, Particles& p, Bonds& bonds, PairLosses& of_rank)
 {
-  LoopLosses losses(of_all);
+  LoopLosses losses(of_rank);
   const Law bond = law; // copies, so that no store below can alias them
   const Contact beside = contact_law;
   const bool is_periodic = cell.is_periodic(),
@@ -48,10 +48,10 @@ void add_bonded_pairs(const Law& law, const Contact& contact_law, const Periodic
 
 template <IsContactLaw Contact>
 void add_other_pairs(const Contact& contact_law, const PeriodicCell& cell, double dt,
-                     Particles& p, Contacts& contacts, PairLosses& of_all,
+                     Particles& p, Contacts& contacts, PairLosses& of_rank,
                      const std::vector<Index>& which)
 {
-  LoopLosses losses(of_all);
+  LoopLosses losses(of_rank);
   const Contact law = contact_law;
   const bool is_periodic = cell.is_periodic(),
              is_strain_controlled = cell.is_strain_controlled;

@@ -249,7 +249,8 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
         for (Index m = first; m < end; ++m) {
           const Level::Member& other = l.member[m];
           const double reach = reach_i + other.reach;
-          if ((other.x - x).squaredNorm() >= reach * reach) continue;
+          // The margin is for the round-off of motions that are added up.
+          if ((other.x - x).squaredNorm() >= reach * reach * (1.0 + 1e-12)) continue;
           const Index j = other.i;
           if ((same && j <= i) || !(is_mine || p.owns(j))) continue;
           Pair q{i, j, {}};
@@ -288,7 +289,7 @@ double VerletList::travel(const Particles& p) const
 void VerletList::allow_for_flight(const Particles& p, double dt)
 {
   constexpr double largest_share = 0.02; // of the particles: more are no debris
-  constexpr double farthest = 2.0;       // over R
+  constexpr double farthest = 1.0;       // over the diameter
   extra_.assign(p.size(), 0.0);
   spare_.clear();
   std::size_t n = 0;
@@ -296,7 +297,7 @@ void VerletList::allow_for_flight(const Particles& p, double dt)
     const ParticleState& b = p.state[i];
     const double way = b.v.norm() * dt * static_cast<double>(steps_of_flight);
     if (way <= 0.5 * skin_ * b.S) continue;
-    extra_[i] = std::min(way, farthest * b.R);
+    extra_[i] = std::min(way, farthest * 2.0 * b.R);
     ++n;
   }
   if (n == 0 || static_cast<double>(n) > largest_share * static_cast<double>(p.size())) {
@@ -313,7 +314,7 @@ void VerletList::rebuild(const Particles& p, const PeriodicCell& cell, const Bon
   extra_.clear();
   spare_.clear();
   // An extra reach would need a wider cell (smallest_edge()).
-  if (dt > 0.0 && !cell.is_periodic()) allow_for_flight(p, dt);
+  if (dt > 0.0 && std::isfinite(dt) && !cell.is_periodic()) allow_for_flight(p, dt);
   Contacts fresh;
   auto bonded = bonds.pairs.begin();
   std::size_t old = 0;
@@ -337,14 +338,13 @@ void VerletList::rebuild(const Particles& p, const PeriodicCell& cell, const Bon
   longest_reach_ = 2.0 * largest + g_a_ + skin_;
   since_built_ = {};
   n_steps_since_built_ = 0;
-  is_narrowed_ = false;
   ++n_builds_;
 }
 
 void VerletList::narrow(const Particles& p, const PeriodicCell& cell, Contacts& contacts)
 {
-  // Each step costs 1/n of a pass over all candidates and n steps' worth of close ones: with
-  // some hundreds of steps between two rebuilds their root is best.
+  // With n steps in between a step costs (candidates)/n for the choice, and n times those that
+  // come near in a step. The list lasts for some hundreds of steps, so n is about their root.
   constexpr double steps_between_narrowings = 16.0;
   margin_ =
       std::clamp(2.0 * last_motion_ * steps_between_narrowings, skin_ / 32.0, skin_ / 4.0);
@@ -358,7 +358,6 @@ void VerletList::narrow(const Particles& p, const PeriodicCell& cell, Contacts& 
   contacts.is_narrowed = true;
   since_narrowed_ = {};
   n_steps_since_narrowed_ = 0;
-  is_narrowed_ = true;
 }
 
 } // namespace mergel::dem

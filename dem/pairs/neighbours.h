@@ -52,9 +52,8 @@ public:
   /// The same for all steps_of_flight steps.
   const std::vector<double>& extra() const { return extra_; }
 
-  /// Report that since the last call no particle of any rank moved by more than `most` S
-  /// [m]. To be called after every motion of particles, or else invalidate().
-  /// The motion is that beyond spare().
+  /// Report that in the last step no particle of any rank moved by more than `most` S beyond
+  /// spare() [m]. To be called after every motion of particles, or else invalidate().
   void add_motion(double most)
   {
     ++n_steps_since_built_;
@@ -105,10 +104,10 @@ public:
   void rebuild(const Particles& p, const PeriodicCell& cell, const Bonds& bonds,
                Contacts& contacts, double dt = 0.0);
 
-  /// True when a pair that is not close may act.
-  bool is_narrowing_stale() const
+  /// True when a pair that is not close may act, or where none was chosen.
+  bool is_narrowing_stale(const Contacts& contacts) const
   {
-    return !is_narrowed_ ||
+    return !contacts.is_narrowed ||
            (!spare_.empty() && n_steps_since_narrowed_ >= steps_of_narrowed_flight) ||
            since_narrowed_.largest(longest_reach_) > margin_;
   }
@@ -160,7 +159,6 @@ private:
   Approach since_built_, since_narrowed_;
   double last_motion_ = 0.0; ///< as reported last [m]
   double margin_ = 0.0;      ///< of the close contacts, at S = 1 [m]
-  bool is_narrowed_ = false;
   std::size_t n_builds_ = 0;
 };
 

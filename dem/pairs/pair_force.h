@@ -13,7 +13,7 @@ namespace mergel::dem {
 
 /// The losses of a loop over pairs, with those of a batch at a time.
 struct LoopLosses {
-  explicit LoopLosses(PairLosses& of_all) : all(of_all) {}
+  explicit LoopLosses(PairLosses& of_rank) : all(of_rank) {}
 
   PairLosses& all;
   LaneEnergySum<Lanes> slip{all.slip};

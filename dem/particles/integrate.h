@@ -62,7 +62,7 @@ void kick(Particles& p, const Motion& motion, double dt, KickWork& work);
 void drift(Particles& p, double dt);
 
 /// kick() over dt_kick and drift() over dt [s] in one pass; leaves the loads at zero.
-/// Returns the largest motion over S [m].
+/// Returns the largest motion over S, less what is spare [m].
 /// @param spare part of the motion of each particle that does not count [m]; empty: none
 double kick_and_drift(Particles& p, const Motion& motion, double dt_kick, double dt,
                       KickWork& work, const std::vector<double>& spare = {});

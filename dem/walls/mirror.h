@@ -30,7 +30,8 @@ struct Mirror {
   VectorSum force; ///< of the plane on owned particles [N]
 };
 
-/// Candidates: gap to the image below (g_a + skin) S; bonded pairs always stay.
+/// Candidates: gap to the image below (g_a + 2 skin) S plus twice their extra reach
+/// (VerletList); bonded pairs always stay.
 void rebuild_wall(Mirror& mirror, const PairMaterials& material, const Particles& p,
                   double skin, const std::vector<double>& extra = {});
 

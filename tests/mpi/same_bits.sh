@@ -9,7 +9,7 @@ shift
 . "$(dirname "$0")/../program/preamble.sh"
 ranks() { on_ranks "$@"; }
 
-for scene in block turning periodic hertz element varied; do
+for scene in block turning debris periodic hertz element varied; do
   ranks 1 "$scenes" "$scene" >one || fail "$scene on one rank"
   [ "$(wc -l <one)" -eq 10 ] || fail "$scene: ten lines on one rank"
   ranks 1 "$scenes" "$scene" rebuild >other || fail "$scene with rebuilds"

@@ -8,6 +8,7 @@
 ///              that break bonds
 ///   hertz      the same with Hertz-Mindlin contacts
 ///   element    the same box, compressed along z until bonds break; stress-controlled x, y
+///   debris     the block at rest, hit by a few fragments that fly between it and a wall
 ///   varied     the same, with strengths that vary from particle to particle
 ///   rebuild    lists are also built at every 7th step
 ///   rebalance  particles change ranks at every 50th step, by arbitrary weights; histories
@@ -77,6 +78,35 @@ void turn(Assembly& assembly, double rate)
   }
 }
 
+/// Fragments beside the block that fly towards it, and a rigid wall behind them.
+void throw_fragments(Assembly& assembly)
+{
+  constexpr double speed = 40.0;
+  Particles& p = assembly.particles;
+  Vec3 mean = Vec3::Zero(), low = p.state.front().x, high = low;
+  for (const ParticleState& b : p.state) {
+    mean += b.v / static_cast<double>(p.size());
+    low = low.cwiseMin(b.x);
+    high = high.cwiseMax(b.x);
+  }
+  for (ParticleState& b : p.state) b.v -= mean;
+  const double R = p.state.front().R;
+  for (int k = 0; k < 5; ++k)
+    for (int l = 0; l < 5; ++l) {
+      ParticleState b = p.state.front();
+      b.x = {high.x() + 3.0 * R, low.y() + 0.2 * (k + 0.5) * (high.y() - low.y()),
+             low.z() + 0.2 * (l + 0.5) * (high.z() - low.z())};
+      b.v = speed * Vec3(-1.0, 0.02 * k, -0.03 * l);
+      b.omega.setZero();
+      b.m = sphere_mass(R, 2556.0);
+      p.add(b);
+    }
+  assembly.rigid_walls.push_back(make_rigid_wall(Plane{-Vec3::UnitX()},
+                                                 high + 4.5 * R * Vec3::UnitX(),
+                                                 without_gap(assembly.material.contact)));
+  assembly.list.invalidate();
+}
+
 apps::WorkingAssembly make(const std::string& name)
 {
   apps::WorkloadSpec spec;
@@ -97,10 +127,11 @@ apps::WorkingAssembly make(const std::string& name)
     w.assembly.cell.is_strain_controlled = is_compressed;
     return w;
   }
-  if (name != "block" && name != "turning")
+  if (name != "block" && name != "turning" && name != "debris")
     throw std::invalid_argument("unknown scene " + name);
   apps::WorkingAssembly w = apps::make_workload(spec);
-  stir(w.assembly, 4.0);
+  stir(w.assembly, name == "debris" ? 0.5 : 4.0);
+  if (name == "debris") throw_fragments(w.assembly);
   if (name == "turning") turn(w.assembly, 2e4);
   return w;
 }
@@ -228,12 +259,14 @@ void run(const std::string& name, const Options& o)
     start(w);
   else
     rebuild_lists(w.assembly);
+  bool has_flown = false;
   for (int step = static_cast<int>(w.n_steps - n_before) + 1; step <= o.stop; ++step) {
     if (rebuilds && step % 7 == 0) w.assembly.list.invalidate();
     if (rebalances && step % 50 == 0)
       rebalance(w.assembly, 1.0 + (step / 50 + w.assembly.comm.rank()) % 3, true);
     if (w.assembly.cell.is_strain_controlled) compress(w, servo, step);
     w.step();
+    has_flown |= !w.assembly.list.extra().empty();
     if (step % 40 == 0) report(w, step);
   }
   std::fflush(stdout);
@@ -242,6 +275,8 @@ void run(const std::string& name, const Options& o)
     return;
   }
   const std::size_t broken = w.assembly.comm.global_sum(w.assembly.losses.broken);
+  if (name == "debris" && o.restart.empty() && !has_flown)
+    throw std::runtime_error("no fragment had an extra reach in the lists");
   if (broken < 20)
     throw std::runtime_error("only " + std::to_string(broken) + " bonds broke");
 }

@@ -53,7 +53,7 @@ Outcome run(bool every_step, Pairs pairs)
   std::size_t narrowings = 0;
   for (int step = 0; step < 1500; ++step) {
     if (every_step || list.is_stale(s.p)) list.rebuild(s.p, s.cell, s.bonds, s.contacts);
-    if (pairs == Pairs::close && list.is_narrowing_stale()) {
+    if (pairs == Pairs::close && list.is_narrowing_stale(s.contacts)) {
       list.narrow(s.p, s.cell, s.contacts);
       ++narrowings;
     }
@@ -175,7 +175,7 @@ Outcome fly(bool every_step, Fragments fragments)
     if (every_step || list.is_stale(s.p))
       list.rebuild(s.p, s.cell, s.bonds, s.contacts,
                    fragments == Fragments::with_extra_reach ? dt : 0.0);
-    if (list.is_narrowing_stale()) {
+    if (list.is_narrowing_stale(s.contacts)) {
       list.narrow(s.p, s.cell, s.contacts);
       ++narrowings;
     }
