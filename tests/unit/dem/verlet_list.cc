@@ -42,6 +42,16 @@ struct Outcome {
   std::size_t builds = 0, broken = 0, narrowings = 0;
 };
 
+/// The same bits of the motion and of its friction.
+bool are_alike(const Outcome& a, const Outcome& b)
+{
+  bool same = std::bit_cast<std::uint64_t>(a.slip) == std::bit_cast<std::uint64_t>(b.slip);
+  for (std::size_t i = 0; i < a.state.size(); ++i)
+    same = same && a.state[i].x == b.state[i].x && a.state[i].v == b.state[i].v &&
+           a.state[i].omega == b.state[i].omega;
+  return same;
+}
+
 /// Which ones are examined in each step.
 enum class Pairs { all, close };
 
@@ -83,14 +93,7 @@ TEST_CASE("Neither a rebuild of the list nor the choice of close pairs changes a
     const Outcome seldom = run(false, pairs);
     CHECK(seldom.builds > 5);
     CHECK(seldom.builds < 300);
-    CHECK(std::bit_cast<std::uint64_t>(often.slip) ==
-          std::bit_cast<std::uint64_t>(seldom.slip));
-    bool same = true;
-    for (std::size_t i = 0; i < often.state.size(); ++i)
-      same = same && often.state[i].x == seldom.state[i].x &&
-             often.state[i].v == seldom.state[i].v &&
-             often.state[i].omega == seldom.state[i].omega;
-    CHECK(same);
+    CHECK(are_alike(often, seldom));
     if (pairs == Pairs::close) {
       CHECK(seldom.narrowings > seldom.builds);
       CHECK(seldom.narrowings < 500);
@@ -170,20 +173,15 @@ Outcome fly(bool every_step, Fragments fragments)
   Scene s = debris();
   VerletList list(activation_gap(s.material.contact), 1.5e-3);
   const double dt = 1e-5;
-  std::size_t narrowings = 0;
   for (int step = 0; step < 4000; ++step) {
     if (every_step || list.is_stale(s.p))
       list.rebuild(s.p, s.cell, s.bonds, s.contacts,
                    fragments == Fragments::with_extra_reach ? dt : 0.0);
-    if (list.is_narrowing_stale(s.contacts)) {
-      list.narrow(s.p, s.cell, s.contacts);
-      ++narrowings;
-    }
-    clear_loads(s.p);
+    if (list.is_narrowing_stale(s.contacts)) list.narrow(s.p, s.cell, s.contacts);
     add_contact_forces(s.material.contact, s.cell, dt, s.p, s.contacts, s.losses);
     list.add_motion(kick_and_drift(s.p, s.motion, dt, dt, s.work, list.spare()));
   }
-  return {s.p.state, s.losses.slip.value(), list.n_builds(), s.losses.broken, narrowings};
+  return {s.p.state, s.losses.slip.value(), list.n_builds()};
 }
 
 } // namespace
@@ -197,14 +195,6 @@ TEST_CASE("A fragment in flight does not make the list of all others stale", "[u
   CHECK(exact.slip > 0.0);
   CHECK(plain.builds > 100);
   CHECK(spared.builds < plain.builds / 3);
-  for (const Outcome& other : {plain, spared}) {
-    CHECK(std::bit_cast<std::uint64_t>(exact.slip) ==
-          std::bit_cast<std::uint64_t>(other.slip));
-    bool same = true;
-    for (std::size_t i = 0; i < exact.state.size(); ++i)
-      same = same && exact.state[i].x == other.state[i].x &&
-             exact.state[i].v == other.state[i].v &&
-             exact.state[i].omega == other.state[i].omega;
-    CHECK(same);
-  }
+  CHECK(are_alike(exact, plain));
+  CHECK(are_alike(exact, spared));
 }
