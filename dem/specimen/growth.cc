@@ -17,8 +17,8 @@ constexpr int n_growing = 150;       // sweeps over which the sizes grow
 
 Growth::Growth(Particles& p, const Region& region, double g_a, double skin,
                const Communicator& comm)
-    : p_(p), region_(region), comm_(comm), cell_(cell_of(region)), g_a_(g_a), skin_(skin),
-      separation_(p.size()), move_(p.size(), Vec3::Zero())
+    : p_(p), region_(region), comm_(comm), cell_(cell_of(region)), g_a_(g_a),
+      list_(g_a, skin), separation_(p.size()), move_(p.size(), Vec3::Zero())
 {
   partition_.assign_by_index(p_, comm_);
 }
@@ -31,58 +31,30 @@ void Growth::gather()
   ghosts_.clear();
 }
 
-bool Growth::is_stale()
+void Growth::update_list()
 {
-  if (x_listed_.empty()) return true;
-  if (travel_ <= 0.5 * skin_) return false;
-  double largest = 0.0;
-  p_.for_owned([&](Index i) {
-    largest = std::max(largest, (p_.state[i].x - x_listed_[i]).norm() / p_.state[i].S);
-  });
-  travel_ = comm_.global_max(largest);
-  return travel_ > 0.5 * skin_;
-}
-
-void Growth::rebuild()
-{
-  partition_.gather_motion(p_, comm_);
-  pairs_ = find_pairs(p_, cell_, g_a_ + skin_);
-  x_listed_.resize(p_.size());
-  for (std::size_t i = 0; i < p_.size(); ++i) x_listed_[i] = p_.state[i].x;
-  choose_ghosts();
-  travel_ = 0.0;
-  narrow();
+  if (list_.may_be_stale(p_) && list_.is_stale(comm_.global_max(list_.travel(p_)))) {
+    partition_.gather_motion(p_, comm_);
+    list_.rebuild(p_, cell_, {}, pairs_);
+    choose_ghosts();
+  }
+  if (list_.is_narrowing_stale(pairs_)) list_.narrow(p_, cell_, pairs_);
 }
 
 void Growth::choose_ghosts()
 {
   if (comm_.is_alone()) return;
   std::vector<char> is_needed(p_.size(), 0);
-  for (const Pair& q : pairs_) is_needed[q.i] = is_needed[q.j] = 1;
+  for (const Pair& q : pairs_.pairs) is_needed[q.i] = is_needed[q.j] = 1;
   ghosts_.choose(p_, is_needed, partition_, comm_);
-}
-
-/// Choose the pairs that may overlap at full size in the next sweeps. Most do not, and are
-/// left out.
-void Growth::narrow()
-{
-  constexpr double sweeps_between_choices = 16.0;
-  margin_ = std::clamp(2.0 * last_move_ * sweeps_between_choices, skin_ / 64.0, skin_);
-  close_.clear();
-  for (const Pair& q : pairs_) {
-    const ParticleState &i = p_.state[q.i], &j = p_.state[q.j];
-    const double reach = i.R + j.R + 0.5 * (g_a_ + margin_) * (i.S + j.S);
-    if ((j.x + cell_.offset(q.shift) - i.x).squaredNorm() < reach * reach)
-      close_.push_back(q);
-  }
-  narrowed_travel_ = 0.0;
 }
 
 double Growth::separate_pairs(double size)
 {
   double worst = 0.0;
   n_overlaps_ = 0;
-  for (const Pair& q : close_) {
+  for (const Index c : pairs_.close) {
+    const Pair& q = pairs_.pairs[c];
     const ParticleState &i = p_.state[q.i], &j = p_.state[q.j];
     const double reach = size * (i.R + j.R + 0.5 * g_a_ * (i.S + j.S));
     const Vec3 r = j.x + cell_.offset(q.shift) - i.x;
@@ -133,10 +105,7 @@ double Growth::move()
 
 double Growth::sweep(double size)
 {
-  if (is_stale())
-    rebuild();
-  else if (2.0 * narrowed_travel_ > margin_)
-    narrow();
+  update_list();
   std::fill(separation_.begin(), separation_.end(), Vec3::Zero());
   double worst = separate_pairs(size);
   worst = std::max(
@@ -144,9 +113,7 @@ double Growth::sweep(double size)
       std::visit([&](const auto& shape) { return separate_from_boundaries(shape, size); },
                  region_));
   constexpr double round_off = 1.0 + 1e-12;
-  last_move_ = comm_.global_max(move()) * round_off;
-  travel_ += last_move_;
-  narrowed_travel_ += last_move_;
+  list_.add_motion(comm_.global_max(move()) * round_off);
   ghosts_.update(p_, comm_);
   return comm_.global_max(worst);
 }

@@ -29,7 +29,7 @@ public:
   double sweep(double size);
 
   /// To be called after R or S of particles have changed, and not during a sweep.
-  void sizes_changed() { x_listed_.clear(); }
+  void sizes_changed() { list_.invalidate(); }
 
   /// Give every rank all positions, and all particles as its own: the end of the sweeps.
   void gather();
@@ -38,10 +38,8 @@ public:
   std::size_t n_overlaps() const { return comm_.global_sum(n_overlaps_); }
 
 private:
-  bool is_stale();
-  void rebuild();
+  void update_list();
   void choose_ghosts();
-  void narrow();
   double separate_pairs(double size);
   template <class Shape>
   double separate_from_boundaries(const Shape& shape, double size);
@@ -53,14 +51,10 @@ private:
   Partition partition_;
   Ghosts ghosts_;
   PeriodicCell cell_;
-  double g_a_, skin_;
-  std::vector<Pair> pairs_;
-  std::vector<Pair> close_; ///< those that may overlap until they are chosen again
-  double margin_ = 0.0;     ///< of the close pairs, at S = 1 [m]
-  double travel_ = 0.0;     ///< bound of the motion over S since the list was built [m]
-  double narrowed_travel_ = 0.0; ///< the same since the close pairs were chosen [m]
-  double last_move_ = 0.0;       ///< largest motion over S in the last sweep [m]
-  std::vector<Vec3> x_listed_, separation_, move_;
+  double g_a_;
+  VerletList list_;
+  Contacts pairs_; ///< without forces
+  std::vector<Vec3> separation_, move_;
   std::size_t n_overlaps_ = 0;
 };
 
