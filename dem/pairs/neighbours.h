@@ -10,9 +10,8 @@
 namespace mergel::dem {
 
 /// All pairs with gap < range (S_i + S_j)/2 + extra_i + extra_j and at least one owned
-/// particle, ascending. The
-/// particles are sorted into cells by size class, a factor of two per class: the cost is
-/// linear in the number of particles at any ratio of diameters.
+/// particle, ascending. The particles are sorted into cells by size class, a factor of two
+/// per class: the cost is linear in the number of particles at any ratio of diameters.
 ///
 /// @param range gap at S = 1 [m], >= 0
 /// @param extra by particle [m], >= 0; empty: none

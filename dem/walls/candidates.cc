@@ -142,7 +142,7 @@ std::optional<PatchContact> patch_contact(const Wall& wall,
   // Round-off of the distances is far below a millionth of a radius.
   const double moved = (particle.x - candidate.x).norm() + wall_travel + 1e-6 * particle.R;
   for (const auto& [t, clearance] : candidate.near) {
-    if (clearance > moved) continue; // most candidates end here
+    if (clearance > moved) continue;
     const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(t)][0])];
     const double height = (particle.x - corner).dot(wall.normals[uz(t)]);
     if (height - particle.R >= reach) continue; // a bound of the distance to the triangle
