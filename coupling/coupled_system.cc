@@ -8,7 +8,7 @@
 namespace mergel::coupling {
 
 CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>& specs)
-    : step_spec(spec.step)
+    : step_spec(spec.step), mass_scaling(spec.mass_scaling)
 {
   assembly.material = spec.material;
   assembly.motion = spec.motion;
@@ -38,7 +38,7 @@ CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>
       dem::bond_to_wall(assembly.walls[k], assembly.particles, bonding.limit);
   dem::distribute(assembly, comm);
   dem::add_forces(assembly, 0.0); // at dt = 0 histories do not change
-  dem::scale_masses(assembly, spec.mass_scaling);
+  dem::scale_masses(assembly, mass_scaling);
   find_time_step();
   dt_before = dt;
 }
@@ -74,6 +74,67 @@ void CoupledSystem::check_time_step()
   dem::update_stable_step(stable_step, assembly, step_spec, n_steps, dt,
                           largest_damping(system), &system);
   dt = step_spec.safety * stable_step.limit;
+}
+
+namespace {
+
+/// By wall and node: not less than the stiffness that the springs of the particles add to a
+/// node [N/m]. Half of the motion of a spring is counted for the particle, as in the block
+/// bound.
+std::vector<Nodal> stiffness_at_nodes(const dem::Assembly& assembly,
+                                      const dem::Springs& springs)
+{
+  std::vector<std::vector<dem::VectorSum>> sums;
+  for (const dem::Wall& w : assembly.walls) sums.emplace_back(w.x.size());
+  for (const dem::WallSpring& k : springs.walls) {
+    if (k.wall == dem::WallSpring::held) continue;
+    const dem::Triangle& t =
+        assembly.walls[k.wall].topology.triangles[dem::uz(k.at.triangle)];
+    for (int c = 0; c < 3; ++c)
+      sums[k.wall][dem::uz(t[dem::uz(c)])].x.add(2.0 * std::max(k.k_n, k.k_s) *
+                                                 k.at.weight[c]);
+  }
+  dem::ExactReduction all;
+  for (auto& wall : sums) all.add(wall);
+  all.run(assembly.comm);
+  std::vector<Nodal> stiffness;
+  for (const auto& wall : sums) {
+    stiffness.emplace_back();
+    for (const dem::VectorSum& node : wall) stiffness.back().push_back(node.value());
+  }
+  return stiffness;
+}
+
+} // namespace
+
+void CoupledSystem::equalise_frequencies()
+{
+  const StructureSystem system = structure_system();
+  const dem::Springs springs = dem::present_springs(assembly, dt, &system);
+  const double omega2 = dem::block_bound(assembly, springs).omega2;
+  if (omega2 > 0.0) {
+    dem::equalise_frequencies(assembly, springs, omega2);
+    const std::vector<Nodal> of_walls = stiffness_at_nodes(assembly, springs);
+    for (Member& s : structures) {
+      if (!moves(s)) continue;
+      Nodal of_structure;
+      s.exchange.transfer().to_structure(of_walls[s.wall], of_structure);
+      std::vector<double> stiffness;
+      for (const dem::Vec3& k : of_structure) stiffness.push_back(k.x());
+      s.structure->equalise_frequencies(omega2, stiffness);
+    }
+  }
+  find_time_step();
+  dt_before = dt;
+}
+
+void CoupledSystem::restore_masses()
+{
+  dem::restore_masses(assembly);
+  dem::scale_masses(assembly, mass_scaling);
+  for (Member& s : structures) s.structure->restore_masses();
+  find_time_step();
+  dt_before = dt;
 }
 
 std::string CoupledSystem::where() const

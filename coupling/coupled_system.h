@@ -62,11 +62,13 @@ struct CoupledSystem {
   std::vector<Member> structures;
   bool are_structures_held = false; ///< true: none takes part in the steps
   dem::StepSpec step_spec;
+  dem::MassScalingSpec mass_scaling;
   dem::StableStep stable_step;
   double dt = 0.0;        ///< time step [s]
   double dt_before = 0.0; ///< previous time step [s]
   std::size_t n_steps = 0;
-  double time = 0.0;          ///< since the specimen was placed in its walls [s]
+  double time = 0.0;          ///< since the specimen was placed in its walls [s]; that of
+                              ///< settling has no meaning, for it has masses of its own
   Settling settling;          ///< advanced by equilibrate()
   std::vector<dem::Vec3> x_0; ///< positions in equilibrium, set by equilibrate() [m]
 
@@ -92,6 +94,13 @@ struct CoupledSystem {
   /// Compute the stable step from the largest frequency of all that acts now, and take the
   /// time step from it. To be called where what takes part has changed. Collective.
   void find_time_step();
+
+  /// For settling: masses by which all that is free to move has about the same frequency, that
+  /// of the stiffest particle. The time step follows. Collective.
+  void equalise_frequencies();
+  /// The masses of the run, true ones but for the mass scaling, from rest. The time step
+  /// follows. Collective.
+  void restore_masses();
 
   /// Give slow ranks fewer particles. The results do not depend on it, bit for bit.
   /// Collective.

@@ -134,17 +134,18 @@ void equilibrate(CoupledSystem& coupled, const EquilibriumSpec& spec,
   Settling& settling = coupled.settling;
   if (settling.phase == Settling::Phase::held) {
     coupled.are_structures_held = true;
-    if (settling.n == 0) coupled.find_time_step(); // their own stiffness takes no part
+    if (settling.n == 0) coupled.equalise_frequencies();
     relax(coupled, {"settling in held walls", spec, report, after_step});
     coupled.are_structures_held = false;
     const WallMotion motion = settle_structures(coupled);
     if (motion.is_any) follow_walls(coupled, motion);
-    coupled.find_time_step();
+    coupled.equalise_frequencies();
     settling = {Settling::Phase::free, 0};
   }
   if (settling.phase == Settling::Phase::free) {
     if (has_moving_structure(coupled))
       relax(coupled, {"settling in free walls", spec, report, after_step});
+    coupled.restore_masses();
     dem::Assembly& assembly = coupled.assembly;
     assembly.partition.gather_motion(assembly.particles, assembly.comm);
     for (const dem::ParticleState& b : assembly.particles.state) coupled.x_0.push_back(b.x);

@@ -142,6 +142,8 @@ void FarFieldStructure::save(dem::State& state, const std::string& name) const
     state.add_common(array,
                      std::vector<double>(field->data(), field->data() + field->size()),
                      nodal_columns);
+  const Eigen::ArrayXd& m = far_field_.motion().m;
+  state.add_common(name + "_m", std::vector<double>(m.data(), m.data() + m.size()), 1);
   dem::save_numbers(state, name + "_numbers", numbers_of(far_field_.motion()));
 }
 
@@ -153,6 +155,9 @@ void FarFieldStructure::load(const dem::State& state, const std::string& name)
         array, static_cast<std::size_t>(field->cols()), nodal_columns);
     std::copy(values.begin(), values.end(), field->data());
   }
+  const auto& m =
+      state.get_rows<double>(name + "_m", static_cast<std::size_t>(motion.m.size()), 1);
+  std::copy(m.begin(), m.end(), motion.m.data());
   dem::load_numbers(state, name + "_numbers", numbers_of(motion));
   far_field_.restore(std::move(motion));
 }

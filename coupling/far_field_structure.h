@@ -36,6 +36,11 @@ public:
   void step(double dt, const Nodal& f) override;
   /// @throws std::runtime_error when the solver does not converge
   std::optional<Nodal> solve_static(const Nodal& f) override;
+  void equalise_frequencies(double omega2, std::span<const double> stiffness) override
+  {
+    far_field_.equalise_frequencies(omega2, stiffness);
+  }
+  void restore_masses() override { far_field_.restore_masses(); }
   double damping() const override { return far_field_.damping(); }
   std::size_t n_amplitudes() const override { return far_field_.n_amplitudes(); }
   void move(std::span<const double> y, Nodal& u) const override;

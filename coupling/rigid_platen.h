@@ -77,6 +77,8 @@ public:
   void step(double dt, const Nodal& f) override;
   /// None: a platen alone has no stiffness.
   std::optional<Nodal> solve_static(const Nodal& f) override;
+  void equalise_frequencies(double, std::span<const double>) override {}
+  void restore_masses() override {}
   double damping() const override { return spec_.damping; }
   std::size_t n_amplitudes() const override;
   void move(std::span<const double> y, Nodal& u) const override;

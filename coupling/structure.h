@@ -82,6 +82,14 @@ public:
   /// no such solution; it stays where it is.
   virtual std::optional<Nodal> solve_static(const Nodal& f) = 0;
 
+  /// For settling: masses with which no free motion is faster than omega2 [1/s^2], from rest.
+  /// Its weight and the forces on it stay what they are. A structure without a stiffness of
+  /// its own may keep its masses.
+  /// @param stiffness of what is coupled to each interface node [N/m]
+  virtual void equalise_frequencies(double omega2, std::span<const double> stiffness) = 0;
+  /// The true masses again, at rest.
+  virtual void restore_masses() = 0;
+
   /// Local damping [-].
   virtual double damping() const = 0;
 

@@ -46,6 +46,23 @@ std::string name_of(const ScaledZone& z)
                             : "S from " + shortest(z.S_from) + " to " + shortest(z.S_to);
 }
 
+/// Of the mass of a particle.
+struct Factor {
+  Index particle;
+  double value;
+};
+
+/// All others get their true mass.
+void set_mass_factors(Particles& p, const std::vector<Factor>& factors)
+{
+  for (Index i = 0; i < p.size(); ++i) p.state[i].m = true_mass(p, i);
+  p.mass_factor.assign(p.size(), 1.0);
+  for (const Factor& f : factors) {
+    p.mass_factor[f.particle] = f.value;
+    p.state[f.particle].m *= f.value;
+  }
+}
+
 } // namespace
 
 std::vector<ScaledZone> scaled_zones(const Particles& p)
@@ -73,25 +90,40 @@ void scale_masses(Assembly& assembly, const MassScalingSpec& spec)
       assembly.comm.global_max(*std::max_element(bounds.begin(), bounds.end())) /
       (spec.gain * spec.gain); // [1/s^2]
 
-  struct Scaled {
-    Index particle;
-    double factor;
-  };
-  std::vector<Scaled> mine;
+  std::vector<Factor> mine;
   p.for_owned([&](Index i) {
     if (bounds[i] > allowed) mine.push_back({i, bounds[i] / allowed});
   });
-  p.mass_factor.assign(p.size(), 1.0);
-  for (const Scaled& s : assembly.comm.gather(mine)) {
-    p.mass_factor[s.particle] = s.factor;
-    p.state[s.particle].m *= s.factor;
-  }
+  set_mass_factors(p, assembly.comm.gather(mine));
   for (const ScaledZone& z : scaled_zones(p))
     if (z.share() > spec.largest_share)
       throw InputError("Motion/mass scaling = " + shortest(spec.gain) + ": it would add " +
                        percent(z.share()) + " to the mass of the particles with " +
                        name_of(z) + ": at most " + percent(spec.largest_share) +
                        "; lower it, or raise `Motion/mass scaling limit`");
+}
+
+void equalise_frequencies(Assembly& assembly, const Springs& springs, double omega2)
+{
+  Particles& p = assembly.particles;
+  const std::vector<double> bounds = block_bounds(assembly, springs);
+  std::vector<Factor> mine;
+  p.for_owned([&](Index i) {
+    const double now = p.mass_factor.empty() ? 1.0 : p.mass_factor[i];
+    if (bounds[i] > 0.0) mine.push_back({i, now * bounds[i] / omega2});
+  });
+  set_mass_factors(p, assembly.comm.gather(mine));
+}
+
+void restore_masses(Assembly& assembly)
+{
+  Particles& p = assembly.particles;
+  set_mass_factors(p, {});
+  p.mass_factor.clear();
+  for (ParticleState& b : p.state) {
+    b.v.setZero();
+    b.omega.setZero();
+  }
 }
 
 ScaledZone sum_of(const std::vector<ScaledZone>& zones)

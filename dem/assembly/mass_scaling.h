@@ -1,8 +1,9 @@
-/// Mass scaling: the few particles that rule the time step get mass (dem/README.md, Mass
-/// scaling).
+/// Masses other than the true ones: for a longer time step, and for settling (dem/README.md,
+/// Mass scaling).
 #pragma once
 
 #include "dem/assembly/assembly.h"
+#include "dem/assembly/springs.h"
 
 #include <string>
 
@@ -32,6 +33,15 @@ struct ScaledZone {
 /// Once for an assembly with its bonds, before its first step; collective.
 /// @throws InputError when a zone would gain more than spec.largest_share of its mass
 void scale_masses(Assembly& assembly, const MassScalingSpec& spec);
+
+/// For settling: mass and moment of inertia of each particle are such that its block bound is
+/// omega2 [1/s^2], so that all parts of the assembly come to rest at the same pace. Nothing
+/// but the equilibrium is meant to be used. Particles without springs keep their mass.
+/// Gravity acts on the true mass. Collective.
+void equalise_frequencies(Assembly& assembly, const Springs& springs, double omega2);
+
+/// Give the particles their true masses again, without any scaling. They are at rest then.
+void restore_masses(Assembly& assembly);
 
 /// What the particles have gained by it; empty without mass scaling.
 std::vector<ScaledZone> scaled_zones(const Particles& p);

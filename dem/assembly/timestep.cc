@@ -22,7 +22,8 @@ bool has_motion(const WallSystem* system)
   return system && system->size() > 0;
 }
 
-/// The springs that act until the next check.
+} // namespace
+
 Springs present_springs(Assembly& assembly, double dt, const WallSystem* system)
 {
   complete_lists(assembly, open_gap_counted(assembly), dt);
@@ -34,6 +35,8 @@ Springs present_springs(Assembly& assembly, double dt, const WallSystem* system)
   assembly.comm.agree_on(assembly.fault);
   return springs;
 }
+
+namespace {
 
 /// Sum of the stiffnesses of springs to triangulated walls [N/m]; collective.
 double stiffness_of_walls(const Assembly& assembly, const Springs& springs)

@@ -47,6 +47,9 @@ struct StableStep {
   std::uint64_t n_evaluations = 0; ///< so far
 };
 
+/// The springs that act until the next check. Rebuilds the lists if need be. Collective.
+Springs present_springs(Assembly& assembly, double dt, const WallSystem* system);
+
 /// Compute the stable step from the largest frequency of the present state. Rebuilds the lists
 /// if need be. Collective.
 /// @param dt present step [s]: contacts count that may close until the next check. 0 where

@@ -237,10 +237,12 @@ double FarField::stable_time_step() const
 namespace {
 
 /// M^-1/2 y of one node, in its supports.
-Vec3 motion_of(const DiscreteSolid& s, std::span<const double> y, std::size_t a)
+/// @param m masses of the nodes [kg]
+Vec3 motion_of(const DiscreteSolid& s, const Eigen::ArrayXd& m, std::span<const double> y,
+               std::size_t a)
 {
   return s.P[a] * Vec3(y[3 * a], y[3 * a + 1], y[3 * a + 2]) /
-         std::sqrt(s.m(static_cast<Eigen::Index>(a)));
+         std::sqrt(m(static_cast<Eigen::Index>(a)));
 }
 
 } // namespace
@@ -249,7 +251,8 @@ void FarField::interface_motion(std::span<const double> y,
                                 std::vector<Eigen::Vector3d>& u) const
 {
   u.clear();
-  for (const auto a : parts_->nodes) u.push_back(motion_of(parts_->solid.discrete(), y, a));
+  for (const auto a : parts_->nodes)
+    u.push_back(motion_of(parts_->solid.discrete(), motion().m, y, a));
 }
 
 void FarField::multiply(std::span<const double> y,
@@ -260,12 +263,12 @@ void FarField::multiply(std::span<const double> y,
   const auto column = [](std::size_t a) { return static_cast<Eigen::Index>(a); };
   NodalField u = NodalField::Zero(4, column(s.n_nodes())), Ku = u;
   for (std::size_t a = 0; a < s.n_nodes(); ++a)
-    u.col(column(a)).head<3>() = motion_of(s, y, a).array();
+    u.col(column(a)).head<3>() = motion_of(s, motion().m, y, a).array();
   parts_->product.multiply(u, Ku);
   for (std::size_t k = 0; k < f_interface.size(); ++k)
     Ku.col(parts_->nodes[k]).head<3>() += f_interface[k].array();
   for (std::size_t a = 0; a < s.n_nodes(); ++a) {
-    const Vec3 f = s.P[a] * at(Ku, column(a)) / std::sqrt(s.m(column(a)));
+    const Vec3 f = s.P[a] * at(Ku, column(a)) / std::sqrt(motion().m(column(a)));
     for (int c = 0; c < 3; ++c) to[3 * a + static_cast<std::size_t>(c)] = f[c];
   }
 }
@@ -278,6 +281,27 @@ Energies FarField::energies() const
 {
   return parts_->motion->energies();
 }
+void FarField::equalise_frequencies(double omega2, std::span<const double> stiffness)
+{
+  // Gershgorin: no frequency is above the largest row sum over the mass.
+  const DiscreteSolid& s = parts_->solid.discrete();
+  NodalField rows = NodalField::Zero(4, static_cast<Eigen::Index>(s.n_nodes()));
+  s.K.for_each([&](std::uint32_t i, std::uint32_t j, const Mat3& block) {
+    rows.col(i).head<3>() += block.cwiseAbs().rowwise().sum().array();
+    if (i != j)
+      rows.col(j).head<3>() += block.cwiseAbs().colwise().sum().transpose().array();
+  });
+  Eigen::ArrayXd k = rows.colwise().maxCoeff();
+  for (std::size_t n = 0; n < parts_->nodes.size(); ++n)
+    k(parts_->nodes[n]) += stiffness[n];
+  parts_->motion->set_masses(k / omega2);
+}
+
+void FarField::restore_masses()
+{
+  parts_->motion->set_masses(parts_->solid.discrete().m);
+}
+
 const NodalMotion& FarField::motion() const
 {
   return parts_->motion->motion();

@@ -104,6 +104,12 @@ public:
   double unbalanced_ratio() const; ///< see Leapfrog::unbalanced_ratio
   Energies energies() const;       ///< see Energies in fem/solid/leapfrog.h
 
+  /// For settling: each node gets the mass with which its squared frequency is at most omega2
+  /// [1/s^2], by a bound, and is at rest. Weights stay what they are.
+  /// @param stiffness of what is coupled to each interface node [N/m]
+  void equalise_frequencies(double omega2, std::span<const double> stiffness);
+  void restore_masses(); ///< the true ones again, at rest
+
   const NodalMotion& motion() const; ///< the state that a restart needs
   void restore(NodalMotion state);   ///< throws std::invalid_argument for another mesh
 

@@ -14,9 +14,8 @@ Leapfrog::Leapfrog(const DiscreteSolid& solid, double alpha,
     throw std::invalid_argument("local damping of the solid = " + std::to_string(alpha) +
                                 ": must satisfy 0 <= damping < 1");
   const auto n = static_cast<Eigen::Index>(solid.n_nodes());
-  inverse_m_.resize(solid.n_nodes());
-  Eigen::Map<Eigen::ArrayXd>(inverse_m_.data(), n) = solid.m.inverse();
   now_.u = now_.v = now_.Ku = now_.f_interface = NodalField::Zero(4, n);
+  set_masses(solid.m);
 }
 
 void Leapfrog::load_interface_forces(std::span<const Vec3> f)
@@ -101,6 +100,14 @@ void Leapfrog::rest_at(const NodalField& u, std::span<const Vec3> f)
   now_.energy.strain = 0.5 * dot(now_.Ku, now_.u);
 }
 
+void Leapfrog::set_masses(const Eigen::ArrayXd& m)
+{
+  now_.m = m;
+  inverse_m_ = m.inverse();
+  now_.v.setZero();
+  now_.dt = 0.0;
+}
+
 void Leapfrog::restore(NodalMotion state)
 {
   const auto n = static_cast<Eigen::Index>(solid_.n_nodes());
@@ -110,13 +117,16 @@ void Leapfrog::restore(NodalMotion state)
           "state of the far field: " + std::to_string(field->cols()) +
           " nodes, the mesh has " + std::to_string(n) +
           "; restart with the mesh of the first run");
+  if (state.m.size() != n || !(state.m > 0.0).all())
+    throw std::invalid_argument("state of the far field: a node without mass");
   now_ = std::move(state);
+  inverse_m_ = now_.m.inverse();
 }
 
 Energies Leapfrog::energies() const
 {
   Energies e = now_.energy;
-  e.kinetic = 0.5 * (now_.v.square().colwise().sum() * solid_.m.transpose()).sum();
+  e.kinetic = 0.5 * (now_.v.square().colwise().sum() * now_.m.transpose()).sum();
   return e;
 }
 

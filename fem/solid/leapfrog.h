@@ -32,6 +32,7 @@ struct NodalMotion {
   NodalField v;           ///< velocity v^{n+1/2} [m/s]
   NodalField Ku;          ///< internal force at the last kick, u^n [N]
   NodalField f_interface; ///< P times the interface forces of the last kick [N]
+  Eigen::ArrayXd m;       ///< mass with which each node moves [kg], > 0
   double dt = 0.0;        ///< last time step [s]; 0 before the first
   Energies energy;
 };
@@ -59,6 +60,9 @@ public:
   /// Set the solid at rest at u under forces f; all works start again from zero.
   void rest_at(const NodalField& u, std::span<const Vec3> f);
 
+  /// Move on from rest with these masses of the nodes [kg], > 0: for settling.
+  void set_masses(const Eigen::ArrayXd& m);
+
   double damping() const { return alpha_; }
   const NodalMotion& motion() const { return now_; }
   /// Throws std::invalid_argument when the arrays do not fit the solid.
@@ -80,7 +84,7 @@ private:
   SharedProduct product_;
   double alpha_;
   std::vector<std::uint32_t> loaded_;
-  std::vector<double> inverse_m_; // [1/kg]
+  Eigen::ArrayXd inverse_m_; // [1/kg]
   NodalMotion now_;
 };
 

@@ -63,6 +63,55 @@ TEST_CASE("the step of an elastic far field that no particle touches is its own"
 }
 
 TEST_CASE(
+    "no frequency of a far field with equalised masses is above the one asked for, nor "
+    "far below, and true masses give the former one",
+    "[verification][coupling]")
+{
+  Chamber c(1e9);
+  c.add({0.0, 2e-3, -5e-3}, 0.5e-3);
+  const double before = c.stable_step().omega2;
+  const double omega2 = 3.0 * before;
+  const std::vector<double> nothing_coupled(c.far_field.far_field().interface().x.size());
+  c.far_field.equalise_frequencies(omega2, nothing_coupled);
+  const double equalised = c.stable_step().omega2;
+  CHECK(equalised < omega2);
+  CHECK(equalised > 0.3 * omega2); // Gershgorin's bound of the stiffness
+  c.far_field.restore_masses();
+  CHECK(c.stable_step().omega2 == before);
+}
+
+TEST_CASE("at the step of particles eight times as fast, a far field with equalised masses "
+          "comes to rest in a fifth of the steps",
+          "[verification][coupling]")
+{
+  // Roller walls and more initial stress than the weight gives: it heaves.
+  const auto settle = [](bool equalised) {
+    fem::FarFieldSpec spec = small_chamber();
+    spec.K0 = 0.5;
+    spec.damping = 0.7;
+    FarFieldStructure far_field(fem::FarField(spec), FarFieldStructure::Model::elastic,
+                                0.0);
+    const std::size_t n_nodes = far_field.far_field().interface().x.size();
+    const Nodal no_force(n_nodes, Vec3::Zero());
+    const double omega = 8.0 * 2.0 / far_field.far_field().stable_time_step();
+    if (equalised)
+      far_field.equalise_frequencies(omega * omega, std::vector<double>(n_nodes));
+    const double dt = 0.9 * 2.0 / (omega * std::sqrt(1.0 + spec.damping));
+    int n = 0;
+    for (; n < 50000 && (n % 10 != 0 || n == 0 || far_field.unbalanced_ratio() > 1e-5); ++n)
+      far_field.step(dt, no_force);
+    Nodal u;
+    far_field.positions(u);
+    return std::pair{n, u.front().z() - far_field.far_field().interface().x.front().z()};
+  };
+  const auto [n_true, u_true] = settle(false);
+  const auto [n_equal, u_equal] = settle(true);
+  CAPTURE(n_true, n_equal, u_true);
+  CHECK(5 * n_equal < n_true);
+  CHECK(u_equal == Approx(u_true).epsilon(1e-3));
+}
+
+TEST_CASE(
     "particles that are much stiffer for their mass than the far field rule the step, "
     "and their wall adds to it",
     "[verification][coupling]")

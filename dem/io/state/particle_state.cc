@@ -66,8 +66,8 @@ Particles load_particles(const State& state)
   if (state.has("grain_mass_factors")) {
     const auto& factors = state.get_rows<double>("grain_mass_factors", n);
     for (const std::size_t k : order) p.mass_factor.push_back(factors[k]);
-    if (!std::all_of(factors.begin(), factors.end(), [](double f) { return f >= 1.0; }))
-      State::refuse("grain_mass_factors", "has a factor below 1");
+    if (!std::all_of(factors.begin(), factors.end(), [](double f) { return f > 0.0; }))
+      State::refuse("grain_mass_factors", "has a factor that is not positive");
   }
   return p;
 }
