@@ -13,9 +13,11 @@ EnergyBalance energy_balance(const Assembly& assembly, double dt)
   EnergySum kinetic = kinetic_energy_sum(now, assembly.motion), walls, mirror;
   PairEnergy pairs = pair_energy(assembly.material, assembly.cell, assembly.particles,
                                  assembly.bonds, assembly.contacts);
-  for (const Mirror& m : assembly.mirrors) mirror += m.energy;
-  for (const Wall& w : assembly.walls) walls += stored_energy(w);
-  for (const RigidWall& w : assembly.rigid_walls) walls += stored_energy(w);
+  const PairMaterials& material = assembly.material;
+  const Particles& p = assembly.particles;
+  for (const Mirror& m : assembly.mirrors) mirror += stored_energy(m, material, p);
+  for (const Wall& w : assembly.walls) walls += stored_energy(w, material, p);
+  for (const RigidWall& w : assembly.rigid_walls) walls += stored_energy(w, p);
   PairLosses losses = assembly.losses;
   ExactReduction sums;
   for (EnergySum* s : {&kinetic, &pairs.bonds, &pairs.contacts, &walls, &mirror})

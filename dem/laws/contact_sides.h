@@ -32,7 +32,8 @@ inline ContactSides<double> sides_at_mirror(double R)
   return {R, 0.5 / R, 0.5 * R, 2.0};
 }
 /// A particle and a wall of any shape: r = R and L = R.
-inline ContactSides<double> sides_at_wall(double R)
+template <class Real>
+ContactSides<Real> sides_at_wall(const Real& R)
 {
   return {R, 1.0 / R, R, 1.0};
 }

@@ -100,6 +100,20 @@ inline Mask lanes_of(unsigned bits)
   return (bit & static_cast<long long>(bits)) != 0;
 }
 
+/// Its inverse.
+inline unsigned bits_of(const Mask& m)
+{
+#if defined(__AVX512DQ__)
+  return static_cast<unsigned>(_mm512_movepi64_mask(reinterpret_cast<__m512i>(m)));
+#elif defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(m)));
+#else
+  unsigned bits = 0;
+  for (int l = 0; l < n_lanes; ++l) bits |= static_cast<unsigned>(m[l] != 0) << l;
+  return bits;
+#endif
+}
+
 inline Lanes select(Mask m, Lanes a, Lanes b)
 {
   return m ? a : b;

@@ -49,14 +49,14 @@ private:
   Pair copies_[n_lanes];
 };
 
-/// One particle of each pair of a batch, transposed from the records.
-/// @param end the one of each pair, &Pair::i or &Pair::j
-[[gnu::always_inline]] inline End<Lanes> gather(const ParticleState* state, const Batch& q,
-                                                Index Pair::*end)
+/// Particles transposed from the records. @param index_of that of a lane
+template <class IndexOf>
+[[gnu::always_inline]] inline End<Lanes> gather(const ParticleState* state,
+                                                IndexOf&& index_of)
 {
   const auto rows = [&](auto member, Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
     Row r[n_lanes];
-    for (int l = 0; l < n_lanes; ++l) r[l] = row((state[q[l].*end].*member).data());
+    for (int l = 0; l < n_lanes; ++l) r[l] = row((state[index_of(l)].*member).data());
     columns(r, a, b, c, d);
   };
   End<Lanes> e;
@@ -65,6 +65,13 @@ private:
   rows(&ParticleState::v, e.v.x, e.v.y, e.v.z, e.S);
   rows(&ParticleState::omega, e.omega.x, e.omega.y, e.omega.z, m);
   return e;
+}
+
+/// One particle of each pair of a batch. @param end which one, &Pair::i or &Pair::j
+[[gnu::always_inline]] inline End<Lanes> gather(const ParticleState* state, const Batch& q,
+                                                Index Pair::*end)
+{
+  return gather(state, [&](int l) { return q[l].*end; });
 }
 
 /// Forces on i and torques of a batch of pairs, one row for each.

@@ -1,4 +1,5 @@
 /// Candidates of a triangulated wall, their contact with its patches, and new wall bonds.
+#include "dem/walls/triangle.h"
 #include "dem/walls/triangulated.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace mergel::dem {
 
 namespace {
 
-/// Closest point of a triangle, and the feature (face, edge or corner) that it is on.
+/// Closest point of a triangle, and the feature that it is on.
 struct ClosestFeature {
   enum class On { face, edge, corner } on;
   int which;   ///< edge (k, k+1) or corner k
@@ -18,44 +19,41 @@ struct ClosestFeature {
   Vec3 point;
 };
 
-/// Source: the Voronoi regions of a triangle, Ericson (2005), Real-Time Collision
-/// Detection, section 5.1.5.
 ClosestFeature closest_on_triangle(const Vec3& c, const Vec3& a, const Vec3& b,
                                    const Vec3& d)
 {
   using On = ClosestFeature::On;
-  const Vec3 ab = b - a, ad = d - a;
-  const Vec3 ac = c - a, bc = c - b, dc = c - d;
-  const double d1 = ab.dot(ac), d2 = ad.dot(ac);
-  if (d1 <= 0.0 && d2 <= 0.0) return {On::corner, 0, {1, 0, 0}, a};
-  const double d3 = ab.dot(bc), d4 = ad.dot(bc);
-  if (d3 >= 0.0 && d4 <= d3) return {On::corner, 1, {0, 1, 0}, b};
-  const double d5 = ab.dot(dc), d6 = ad.dot(dc);
-  if (d6 >= 0.0 && d5 <= d6) return {On::corner, 2, {0, 0, 1}, d};
-
-  const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vd = d1 * d4 - d3 * d2;
-  if (vd <= 0.0 && d1 >= 0.0 && d3 <= 0.0) { // d1 - d3 = |ab|^2 > 0
-    const double s = d1 / (d1 - d3);
-    return {On::edge, 0, {1 - s, s, 0}, a + s * ab};
+  const TriangleRegions<double> r(triple(c), triple(a), triple(b), triple(d));
+  if (r.at_corner_a()) return {On::corner, 0, {1, 0, 0}, a};
+  if (r.at_corner_b()) return {On::corner, 1, {0, 1, 0}, b};
+  if (r.at_corner_d()) return {On::corner, 2, {0, 0, 1}, d};
+  if (r.at_edge_ab()) { // d1 - d3 = |ab|^2 > 0
+    const double s = r.d1 / (r.d1 - r.d3);
+    return {On::edge, 0, {1 - s, s, 0}, a + s * (b - a)};
   }
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) { // d2 - d6 = |ad|^2 > 0
-    const double s = d2 / (d2 - d6);
-    return {On::edge, 2, {1 - s, 0, s}, a + s * ad};
+  if (r.at_edge_da()) { // d2 - d6 = |ad|^2 > 0
+    const double s = r.d2 / (r.d2 - r.d6);
+    return {On::edge, 2, {1 - s, 0, s}, a + s * (d - a)};
   }
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) { // the sum is |bd|^2 > 0
-    const double s = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+  if (r.at_edge_bd()) { // the sum is |bd|^2 > 0
+    const double s = (r.d4 - r.d3) / ((r.d4 - r.d3) + (r.d5 - r.d6));
     return {On::edge, 1, {0, 1 - s, s}, b + s * (d - b)};
   }
-  const double inv =
-      1.0 / (va + vb + vd); // twice the area squared, not 0 for a proper triangle
-  const double wb = vb * inv, wd = vd * inv;
-  return {On::face, 0, {1 - wb - wd, wb, wd}, a + wb * ab + wd * ad};
+  const TrianglePoint<double> at = point_of_face(r);
+  return {On::face, 0, vec3(at.weight), vec3(at.x)};
 }
 
 ClosestFeature closest_on(const Wall& wall, int t, const Vec3& c)
 {
   const Triangle& k = wall.topology.triangles[uz(t)];
   return closest_on_triangle(c, wall.x[uz(k[0])], wall.x[uz(k[1])], wall.x[uz(k[2])]);
+}
+
+/// As the lanes of a batch compute it.
+double distance(const Vec3& from, const Vec3& to)
+{
+  const Triple<double> r = triple(to) - triple(from);
+  return sqrt(dot(r, r));
 }
 
 /// True when the Voronoi region of the feature contains c on all triangles that share it. A
@@ -139,15 +137,14 @@ std::optional<PatchContact> patch_contact(const Wall& wall,
   bool is_inside = true;
   Feature closest{};
   const double reach = activation_gap(wall.material) * particle.S;
-  // Round-off of the distances is far below a millionth of a radius.
-  const double moved = (particle.x - candidate.x).norm() + wall_travel + 1e-6 * particle.R;
-  for (const auto& [t, clearance] : candidate.near) {
+  const double moved = candidate.motion(particle, wall_travel);
+  for (const auto& [t, clearance] : wall.near_triangles(candidate)) {
     if (clearance > moved) continue;
     const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(t)][0])];
     const double height = (particle.x - corner).dot(wall.normals[uz(t)]);
     if (height - particle.R >= reach) continue; // a bound of the distance to the triangle
     const ClosestFeature at = closest_on(wall, t, particle.x);
-    const double d = (particle.x - at.point).norm();
+    const double d = distance(particle.x, at.point);
     const Feature feature{{t, at.weight}, at.on, at.point, d, reach - (d - particle.R)};
     if (d < nearest) {
       nearest = d;
@@ -190,17 +187,25 @@ std::optional<PatchContact> patch_contact(const Wall& wall,
   if (n_features == 0) return std::nullopt;
 
   PatchContact p;
-  double distance = 0.0;
+  if (n_features == 1) { // the same bits as a batch of faces gives
+    const Feature& only = features[0];
+    p.shares[p.n++] = {only.at, 1.0};
+    p.geometry = {(only.point - particle.x) * (1.0 / only.distance),
+                  only.distance - particle.R, only.point,
+                  at(wall.v, wall.topology, only.at)};
+    return p;
+  }
+  double mean_distance = 0.0;
   for (std::size_t k = 0; k < n_features; ++k) {
     const double w = features[k].overlap / total; // overlaps are positive
     p.shares[p.n++] = {features[k].at, w};
     p.geometry.point += w * features[k].point;
     p.geometry.v += w * at(wall.v, wall.topology, features[k].at);
     p.geometry.n += w * (features[k].point - particle.x) / features[k].distance;
-    distance += w * features[k].distance;
+    mean_distance += w * features[k].distance;
   }
   p.geometry.n.normalize();
-  p.geometry.gap = distance - particle.R;
+  p.geometry.gap = mean_distance - particle.R;
   return p;
 }
 
@@ -209,7 +214,7 @@ std::optional<NearestPoint> nearest_point(const Wall& wall,
                                           double reach)
 {
   std::optional<NearestPoint> nearest;
-  for (const auto& near : candidate.near) {
+  for (const auto& near : wall.near_triangles(candidate)) {
     const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(near.triangle)][0])];
     if ((x - corner).dot(wall.normals[uz(near.triangle)]) > reach) continue; // of its plane
     const ClosestFeature at = closest_on(wall, near.triangle, x);
@@ -225,6 +230,7 @@ void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double s
 {
   std::vector<WallContact> found;
   std::vector<ListedCandidate> listed;
+  std::vector<NearTriangle> near;
   const WallTopology& topo = wall.topology;
 
   // Bounding spheres of the triangles, sorted along z: a particle tests only those at its
@@ -249,11 +255,11 @@ void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double s
               return std::pair{a.z, a.t} < std::pair{b.z, b.t};
             });
 
-  struct NearTriangle {
+  struct Hit {
     int patch, triangle;
     double distance2;
   };
-  std::vector<NearTriangle> hits;
+  std::vector<Hit> hits;
   p.for_owned([&](Index i) {
     const ParticleState& b = p.state[i];
     const double reach = b.R + (activation_gap(wall.material) + skin) * b.S +
@@ -268,22 +274,24 @@ void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double s
       if (distance2 > reach * reach) continue;
       hits.push_back({topo.patch[uz(ball->t)], ball->t, distance2});
     }
-    std::sort(hits.begin(), hits.end(), [](const NearTriangle& a, const NearTriangle& c) {
+    std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& c) {
       return std::pair{a.patch, a.triangle} < std::pair{c.patch, c.triangle};
     });
-    for (const NearTriangle& hit : hits) {
+    for (const Hit& hit : hits) {
       if (found.empty() || found.back().particle != i || found.back().wall != hit.patch) {
-        found.push_back({i, hit.patch, Vec3::Zero(), 0.0});
-        listed.emplace_back().x = b.x;
+        found.push_back({.particle = i, .wall = hit.patch});
+        listed.push_back({.x = b.x, .first = near.size()});
       }
       const double beyond = b.R + activation_gap(wall.material) * b.S;
       const double clearance = std::sqrt(hit.distance2) - beyond;
-      listed.back().near.push_back({hit.triangle, clearance});
+      near.push_back({hit.triangle, clearance});
+      listed.back().end = near.size();
       listed.back().clearance = std::min(listed.back().clearance, clearance);
     }
   });
   wall.contacts = carry_history(std::move(found), wall.contacts);
   wall.listed = std::move(listed);
+  wall.near = std::move(near);
   wall.x_listed = wall.x;
 }
 

@@ -59,23 +59,55 @@ void bond_to_mirror(Mirror& mirror, Particles& p, double limit)
 
 namespace {
 
-/// Force of an intact bond, towards the image [N]. Only half of its energies is counted:
-/// the other half belongs to the image.
+EffectiveLoads<double> image_bond_load(const BondShape<double>& shape, const MirrorPair& m,
+                                       double gap)
+{
+  return {shape.k_n * (gap - m.gap_0 - m.bond.u_p), {}, {}};
+}
+
+/// Force of an intact bond, towards the image [N]. Only half of its losses is counted: the
+/// other half belongs to the image.
 template <IsBondLaw Law>
 double image_bond_force(const Law& law, double dt, double gap, Particles& p, MirrorPair& m,
-                        PairLosses& losses, EnergySum& energy)
+                        PairLosses& losses)
 {
   const ParticleState& b = p.state[m.particle];
   const auto shape = bond_shape(law, b.R, 0.5 / b.R);
-  EffectiveLoads<double> q{shape.k_n * (gap - m.gap_0 - m.bond.u_p), {}, {}};
+  EffectiveLoads<double> q = image_bond_load(shape, m, gap);
   if (!is_elastic(law, shape, q)) {
     EffectiveLoads<double> old = q;
     old.N -= shape.k_n * 2.0 * dt * b.v.y();
     if (bond_step(law, shape, b.S, old, q, m.bond, &losses, 0.5).breaks)
       --p.n_bonds[m.particle];
   }
-  energy.add(0.5 * m.bond.intact * spring_energy(shape, q));
   return m.bond.intact * q.N;
+}
+
+template <IsBondLaw Law, IsContactLaw Contact>
+void add_forces(Mirror& mirror, const Law& bond, const Contact& contact, double dt,
+                Particles& p, PairLosses& losses)
+{
+  mirror.force.clear();
+  for (MirrorPair& m : mirror.pairs) {
+    const ParticleState& b = p.state[m.particle];
+    if (b.x.y() < 0.0)
+      throw NumericalError("particle " + std::to_string(p.id[m.particle]) +
+                           " passed through the symmetry plane");
+    const double gap = image_gap(b);
+    double pull = 0.0; // towards the image
+    if (m.bond.intact > 0.0) {
+      const auto force = [&](const Law& law) {
+        return image_bond_force(law, dt, gap, p, m, losses);
+      };
+      pull += p.strength.empty()
+                  ? force(bond)
+                  : force(with_strengths_times(strength_of(p, m.particle), bond));
+    }
+    const double overlap = activation_gap(contact) * b.S - gap;
+    if (overlap > 0.0) pull -= normal_force(contact, sides_at_mirror(b.R), overlap);
+    p.load[m.particle].f.y() -= pull;
+    mirror.force.y.add(-pull);
+  }
 }
 
 } // namespace
@@ -83,34 +115,27 @@ double image_bond_force(const Law& law, double dt, double gap, Particles& p, Mir
 void add_wall_forces(Mirror& mirror, const PairMaterials& material, double dt, Particles& p,
                      PairLosses& losses)
 {
-  mirror.energy.clear();
-  mirror.force.clear();
-  for (MirrorPair& m : mirror.pairs) {
-    ParticleState& b = p.state[m.particle];
-    Load& load = p.load[m.particle];
-    if (b.x.y() < 0.0)
-      throw NumericalError("particle " + std::to_string(p.id[m.particle]) +
-                           " passed through the symmetry plane");
+  std::visit([&](const auto& bond,
+                 const auto& contact) { add_forces(mirror, bond, contact, dt, p, losses); },
+             material.bond, material.contact);
+}
+
+EnergySum stored_energy(const Mirror& mirror, const PairMaterials& material,
+                        const Particles& p)
+{
+  EnergySum e;
+  for (const MirrorPair& m : mirror.pairs) {
+    const ParticleState& b = p.state[m.particle];
     const double gap = image_gap(b);
-    double pull = 0.0; // towards the image
-
-    if (m.bond.intact > 0.0)
-      pull += std::visit(
-          [&](const auto& law) {
-            return image_bond_force(with_strengths_times(strength_of(p, m.particle), law),
-                                    dt, gap, p, m, losses, mirror.energy);
-          },
-          material.bond);
-
-    const double overlap = activation_gap(material.contact) * b.S - gap;
-    if (overlap > 0.0) {
-      const auto sides = sides_at_mirror(b.R);
-      pull -= normal_force(material.contact, sides, overlap);
-      mirror.energy.add(0.5 * contact_energy(material.contact, sides, overlap, 0.0));
+    if (m.bond.intact > 0.0) {
+      const auto shape = bond_shape(section(material.bond), b.R, 0.5 / b.R);
+      e.add(0.5 * m.bond.intact * spring_energy(shape, image_bond_load(shape, m, gap)));
     }
-    load.f.y() -= pull;
-    mirror.force.add({0.0, -pull, 0.0});
+    const double overlap = activation_gap(material.contact) * b.S - gap;
+    if (overlap > 0.0)
+      e.add(0.5 * contact_energy(material.contact, sides_at_mirror(b.R), overlap, 0.0));
   }
+  return e;
 }
 
 void constrain_mirror_spin(const Mirror& mirror, Particles& p)

@@ -25,9 +25,7 @@ struct MirrorPair {
 /// no tension (`Specimen/symmetry` = mirror or wall).
 struct Mirror {
   std::vector<MirrorPair> pairs; ///< ascending in particle
-  EnergySum
-      energy; ///< stored by bonds and contacts of owned particles, half of each pair [J]
-  VectorSum force; ///< of the plane on owned particles [N]
+  VectorSum force;               ///< of the plane on owned particles [N]
 };
 
 /// Candidates: gap to the image below (g_a + 2 skin) S plus twice their extra reach
@@ -43,6 +41,10 @@ void bond_to_mirror(Mirror& mirror, Particles& p, double limit);
 /// @throws NumericalError for a centre behind the plane
 void add_wall_forces(Mirror& mirror, const PairMaterials& material, double dt, Particles& p,
                      PairLosses& losses);
+
+/// Stored by bonds and contacts of owned particles, half of each pair [J].
+EnergySum stored_energy(const Mirror& mirror, const PairMaterials& material,
+                        const Particles& p);
 
 /// Set the x and z torques of bonded particles to zero, which symmetry excludes. To be
 /// called after all forces are added: a torque added later would spin a bonded particle and
@@ -70,7 +72,6 @@ template <class Wall, class Visit>
 requires std::same_as<std::remove_const_t<Wall>, Mirror>
 void visit_sums(Wall& mirror, Visit&& visit)
 {
-  visit("energy", SumKind::by_rank, mirror.energy);
   visit("force", SumKind::by_rank, mirror.force);
 }
 

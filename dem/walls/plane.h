@@ -14,6 +14,11 @@ struct Plane {
 
   Vec3 normal = Vec3::UnitZ(); ///< unit, towards the particles
 
+  /// Quick test of a gap larger than `gap` [m]; it may fail to tell.
+  bool is_beyond(const ParticleState& b, const Vec3& x, double gap) const
+  {
+    return (b.x - x).dot(normal) - b.R > gap;
+  }
   /// @throws NumericalError for a centre behind the plane
   SurfacePoint closest_point(const ParticleState& b, const Vec3& x) const
   {

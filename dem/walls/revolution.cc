@@ -45,10 +45,17 @@ bool is_inside(const std::vector<Revolution::Corner>& profile, double r, double 
 
 } // namespace
 
+bool Revolution::is_beyond(const ParticleState& b, const Vec3& x, double gap) const
+{
+  const double dx = b.x.x() - x.x(), dy = b.x.y() - x.y();
+  const double reach = b.R + gap, around = R() + reach;
+  return dx * dx + dy * dy > around * around || x.z() - b.x.z() > reach;
+}
+
 SurfacePoint Revolution::closest_point(const ParticleState& b, const Vec3& x) const
 {
   const double dx = b.x.x() - x.x(), dy = b.x.y() - x.y();
-  const double r = std::hypot(dx, dy), z = b.x.z() - x.z();
+  const double r = std::sqrt(dx * dx + dy * dy), z = b.x.z() - x.z();
   // Radial unit vector; on the axis any direction does, because the lowest point is closest.
   const Vec3 e_r = r > 0.0 ? Vec3(dx / r, dy / r, 0.0) : Vec3(1.0, 0.0, 0.0);
   if (is_inside(profile, r, z))
@@ -72,7 +79,7 @@ SurfacePoint Revolution::closest_point(const ParticleState& b, const Vec3& x) co
     closest.part = tip;
     break;
   }
-  const double dr = foot.r - r, dz = foot.z - z, d = std::hypot(dr, dz);
+  const double dr = foot.r - r, dz = foot.z - z, d = std::sqrt(dr * dr + dz * dz);
   if (!(d > 0.0)) throw NumericalError("its centre lies on the surface of a rigid wall");
   closest.n = (dr * e_r + dz * Vec3::UnitZ()) / d;
   closest.gap = d - b.R;

@@ -28,6 +28,8 @@ struct Revolution {
   ///   or is not convex
   void check() const;
 
+  /// Quick test of a gap larger than `gap` [m]; it may fail to tell.
+  bool is_beyond(const ParticleState& b, const Vec3& x, double gap) const;
   /// The edge of the shoulder counts as tip.
   /// @throws NumericalError for a centre inside the wall
   SurfacePoint closest_point(const ParticleState& b, const Vec3& x) const;

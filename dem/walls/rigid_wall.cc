@@ -39,10 +39,11 @@ void rebuild_wall(RigidWall& wall, const PairMaterials&, const Particles& p, dou
       [&](const auto& shape) {
         p.for_owned([&](Index i) {
           const ParticleState& b = p.state[i];
+          const double most = reach * b.S + (extra.empty() ? 0.0 : extra[i]);
+          if (shape.is_beyond(b, wall.x, most)) return; // most particles
           const double gap =
               with_particle_id(p.id[i], [&] { return shape.closest_point(b, wall.x).gap; });
-          if (gap < reach * b.S + (extra.empty() ? 0.0 : extra[i]))
-            near.push_back({.particle = i});
+          if (gap < most) near.push_back({.particle = i});
         });
       },
       wall.shape);
@@ -62,7 +63,11 @@ void add_wall_forces(RigidWall& wall, const PairMaterials&, double dt, Particles
   std::visit(
       [&](const auto& shape, const auto& law) {
         for (WallContact& c : wall.contacts) {
-          ParticleState& particle = p.state[c.particle];
+          const ParticleState& particle = p.state[c.particle];
+          const bool is_open = c.overlap == 0.0 && c.f_s == Vec3::Zero();
+          if (is_open &&
+              shape.is_beyond(particle, wall.x, activation_gap(law) * particle.S))
+            continue; // most candidates
           const SurfacePoint closest = with_particle_id(
               p.id[c.particle], [&] { return shape.closest_point(particle, wall.x); });
           wall.force[closest.part].add(
@@ -73,11 +78,9 @@ void add_wall_forces(RigidWall& wall, const PairMaterials&, double dt, Particles
       wall.shape, wall.material);
 }
 
-EnergySum stored_energy(const RigidWall& wall)
+EnergySum stored_energy(const RigidWall& wall, const Particles& p)
 {
-  EnergySum e;
-  for (const WallContact& c : wall.contacts) e.add(c.energy);
-  return e;
+  return stored_energy(wall.contacts, wall.material, p);
 }
 
 double power(const RigidWall& wall)

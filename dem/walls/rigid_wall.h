@@ -15,15 +15,17 @@
 namespace mergel::dem {
 
 /// A shape has named parts, whose resultants are kept apart, and a closest point to a
-/// particle when the wall stands at x [m].
+/// particle when the wall stands at x [m]. A quick test may tell that the gap is larger than
+/// `gap`; it may fail to.
 // clang-format off
 template <class Shape>
 concept IsRigidShape =
-    requires(const Shape& shape, const ParticleState& b, const Vec3& x)
+    requires(const Shape& shape, const ParticleState& b, const Vec3& x, double gap)
 {
   { Shape::parts.size() } -> std::convertible_to<std::size_t>;
   { Shape::parts.front() } -> std::convertible_to<const char*>;
   { shape.closest_point(b, x) } -> std::same_as<SurfacePoint>;
+  { shape.is_beyond(b, x, gap) } -> std::same_as<bool>;
 };
 // clang-format on
 
@@ -65,7 +67,7 @@ void add_wall_forces(RigidWall& wall, const PairMaterials& material, double dt,
                      Particles& p, PairLosses& losses);
 
 /// Stored by the contacts of owned particles [J].
-EnergySum stored_energy(const RigidWall& wall);
+EnergySum stored_energy(const RigidWall& wall, const Particles& p);
 
 /// Power on the particles at the present velocity, from the forces of the last step [W].
 double power(const RigidWall& wall);

@@ -9,6 +9,7 @@
 #include <concepts>
 #include <limits>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -49,24 +50,37 @@ struct Anchor {
   Vec3 weight = Vec3::Zero(); ///< barycentric coordinates, sum 1
 };
 
-/// A candidate as it was found. A triangle can be in contact only after particle and wall
-/// together have moved by its clearance.
+/// A triangle as it was when the candidates were found. It can be in contact only after
+/// particle and wall together have moved by its clearance.
+struct NearTriangle {
+  int triangle;
+  double clearance; ///< gap to the particle less g_a S [m]
+};
+
+/// A candidate as it was found.
 struct ListedCandidate {
-  struct Near {
-    int triangle;
-    double clearance; ///< gap to the particle less g_a S [m]
-  };
-  Vec3 x = Vec3::Zero();  ///< of the particle then [m]
-  std::vector<Near> near; ///< triangles of the patch within reach, ascending
+  Vec3 x = Vec3::Zero();          ///< of the particle then [m]
+  std::size_t first = 0, end = 0; ///< its triangles among Wall::near
   double clearance = std::numeric_limits<double>::infinity(); ///< the smallest one [m]
 
-  /// Whether no triangle can be in contact. Most candidates end here.
-  /// @param wall_travel bound of the motion of a node since then [m]
+  /// Bound of the motion of the particle against the wall since then [m].
+  /// @param wall_travel bound of the motion of a node [m]
+  double motion(const ParticleState& particle, double wall_travel) const
+  {
+    return (particle.x - x).norm() + margin(particle, wall_travel);
+  }
+  /// Whether no triangle can be in contact.
   bool is_apart(const ParticleState& particle, double wall_travel) const
   {
-    // Round-off of the distances is far below a millionth of a radius.
-    const double left = clearance - wall_travel - 1e-6 * particle.R;
+    const double left = clearance - margin(particle, wall_travel);
     return left > 0.0 && (particle.x - x).squaredNorm() < left * left;
+  }
+
+private:
+  /// Round-off of the distances is far below a millionth of a radius.
+  static double margin(const ParticleState& particle, double wall_travel)
+  {
+    return wall_travel + 1e-6 * particle.R;
   }
 };
 
@@ -77,7 +91,6 @@ struct WallBond {
   double gap_0 = 0.0; ///< gap at which the bond was made [m]
   BondState state;
   Vec3 V = Vec3::Zero(); ///< effective shear force on the particle [N]
-  double energy = 0.0;   ///< stored by the bond [J]
 };
 
 /// Force of one contact or bond between a particle and the wall in the last step.
@@ -93,13 +106,19 @@ struct Wall {
   std::vector<Vec3> x_listed;          ///< nodes when the candidates were found [m]
   std::vector<WallContact> contacts;   ///< candidates, ascending in (particle, patch)
   std::vector<ListedCandidate> listed; ///< by contact
-  std::vector<WallBond> bonds;         ///< ascending in particle
+  std::vector<NearTriangle> near; ///< by candidate, the triangles of its patch ascending
+  std::vector<WallBond> bonds;    ///< ascending in particle
   ContactLaw material;
   bool bonds_yield = false; ///< bonds follow the bond law; otherwise they stay elastic
   std::vector<WallContactForce>
       contact_forces;        ///< of this rank's contacts and bonds in the last step
   std::vector<Vec3> normals; ///< unit, by triangle; see update_normals()
   EnergySum work; ///< on the particles by the motion of the nodes, of all ranks [J]
+
+  std::span<const NearTriangle> near_triangles(const ListedCandidate& c) const
+  {
+    return std::span(near).subspan(c.first, c.end - c.first);
+  }
 };
 
 Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
@@ -174,7 +193,8 @@ void add_wall_forces(Wall& wall, const PairMaterials& material, double dt, Parti
                      PairLosses& losses);
 
 /// Stored by contacts and bonds of owned particles [J].
-EnergySum stored_energy(const Wall& wall);
+EnergySum stored_energy(const Wall& wall, const PairMaterials& material,
+                        const Particles& p);
 
 /// Power on the particles at the present velocities, from the forces of the last step [W].
 double power(const Wall& wall);

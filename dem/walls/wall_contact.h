@@ -5,6 +5,7 @@
 #include "dem/laws/contact_law.h"
 #include "dem/math/exact_sum.h"
 #include "dem/pairs/forces.h"
+#include "dem/particles/kinematics.h"
 #include "dem/particles/particles.h"
 
 namespace mergel::dem {
@@ -30,49 +31,104 @@ struct WallContact {
   Index particle = 0;
   int wall = 0;            ///< patch of a triangulated wall; 0 for exact surfaces
   Vec3 f_s = Vec3::Zero(); ///< shear force on the particle [N]
-  double energy = 0.0;     ///< stored by the contact [J]
   double overlap = 0.0;    ///< [m]; 0 when open
 };
 
-/// Add the contact force to the particle and update the history over the step dt [s].
-/// Returns the force on the particle [N]; its negative acts on the wall at geometry.point.
-/// The arm is R + gap, so forces and moments balance. In the contact law r = R and L = R.
+/// The same as ContactGeometry, for one contact or one per lane.
+template <class Real>
+struct WallPoint {
+  Triple<Real> n;
+  Real gap;
+  Triple<Real> x, v;
+};
+
+inline End<double> end_of(const ParticleState& b)
+{
+  return {triple(b.x), b.R, triple(b.v), b.S, triple(b.omega)};
+}
+inline WallPoint<double> wall_point(const ContactGeometry& at)
+{
+  return {triple(at.n), at.gap, triple(at.point), triple(at.v)};
+}
+
+/// Result of one step of a wall contact.
+template <class Real>
+struct WallContactStep {
+  Triple<Real> F, M; ///< force and moment on the particle [N], [N m]; -F acts at the point
+  Triple<Real> f_s;  ///< the new history [N]
+  Real slip_loss;    ///< [J]
+};
+
+/// One step of a contact that is closed, over dt [s]. The arm is R + gap, so forces and
+/// moments balance. In the contact law r = R and L = R.
 ///
 /// A particle that slides along a curved wall does not rotate the wall. So the history is
 /// not rotated with the contact frame: it is projected onto the present tangent plane and
 /// keeps its length (dem/README.md, History vectors).
+template <IsContactLaw Law, class Real>
+[[gnu::always_inline]] inline WallContactStep<Real>
+wall_contact_step(const Law& law, const End<Real>& particle, const WallPoint<Real>& at,
+                  const Triple<Real>& f_s, double dt)
+{
+  const Triple<Real> arm = at.x - particle.x;
+  const Triple<Real> v_rel = at.v - particle.v - cross(particle.omega, arm);
+  const Real v_n = dot(v_rel, at.n);
+  const Triple<Real> du_s = (v_rel - at.n * v_n) * dt;
+  const Triple<Real> tangential = f_s - at.n * dot(f_s, at.n);
+  const Real length2 = dot(tangential, tangential), one = Real{} + 1.0;
+  const auto has_length = length2 > Real{};
+  const Real stretch = sqrt(dot(f_s, f_s) / select(has_length, length2, one));
+  const Triple<Real> f_old = tangential * select(has_length, stretch, one);
+
+  const ContactStep<Real> c = contact_step(law, sides_at_wall(particle.R), particle.S,
+                                           {at.gap, v_n * dt, du_s, f_old});
+  const Triple<Real> F = c.f_s - at.n * c.f_n;
+  return {F, cross(arm, F), c.f_s, c.slip_loss};
+}
+
+/// The contact opens, or is open: it loses the energy of its shear force.
+template <IsContactLaw Law>
+void open_contact(const Law& law, double R, WallContact& contact, PairLosses& losses)
+{
+  if (contact.f_s != Vec3::Zero())
+    losses.slip.add(0.5 * contact.f_s.squaredNorm() /
+                    contact_stiffness(law, sides_at_wall(R), contact.overlap).k_s);
+  contact.f_s.setZero();
+  contact.overlap = 0.0;
+}
+
+/// Add the contact force to the particle and update the history over the step dt [s].
+/// Returns the force on the particle [N]; its negative acts on the wall at geometry.point.
 template <IsContactLaw Law>
 Vec3 add_wall_contact(const Law& law, const ContactGeometry& geometry, double dt,
-                      ParticleState& particle, Load& load, WallContact& history,
+                      const ParticleState& particle, Load& load, WallContact& history,
                       PairLosses& losses)
 {
   const double overlap = activation_gap(law) * particle.S - geometry.gap;
-  history.overlap = std::max(0.0, overlap);
-  if (overlap <= 0.0 && history.f_s.isZero(0.0)) { // open, and no shear force
-    history.energy = 0.0;
+  if (!(overlap > 0.0)) {
+    open_contact(law, particle.R, history, losses);
     return Vec3::Zero();
   }
-  const Vec3 arm = geometry.point - particle.x;
-  const Vec3 v_rel = geometry.v - particle.v - particle.omega.cross(arm);
-  const double v_n = v_rel.dot(geometry.n);
-  const Vec3 du_s = dt * (v_rel - v_n * geometry.n);
-  Vec3 f_old = history.f_s - history.f_s.dot(geometry.n) * geometry.n;
-  const double length = f_old.norm(); // the length is kept, so projection loses no energy
-  if (length > 0.0) f_old *= history.f_s.norm() / length;
+  history.overlap = overlap;
+  const WallContactStep<double> step = wall_contact_step(
+      law, end_of(particle), wall_point(geometry), triple(history.f_s), dt);
+  if (step.slip_loss != 0.0) losses.slip.add(step.slip_loss);
+  history.f_s = vec3(step.f_s);
+  load.f += vec3(step.F);
+  load.t += vec3(step.M);
+  return vec3(step.F);
+}
 
-  const ContactSides<double> sides = sides_at_wall(particle.R);
-  const ContactStep<double> c = contact_step(
-      law, sides, particle.S, {geometry.gap, dt * v_n, triple(du_s), triple(f_old)});
-  if (c.slip_loss != 0.0) losses.slip.add(c.slip_loss);
-  history.f_s = vec3(c.f_s);
-  history.energy =
-      c.f_n > 0.0 ? contact_energy_of_force(law, sides, c.f_n, history.f_s.squaredNorm())
-                  : 0.0;
-
-  const Vec3 f = history.f_s - c.f_n * geometry.n;
-  load.f += f;
-  load.t += arm.cross(f);
-  return f;
+/// Stored by these contacts [J].
+inline EnergySum stored_energy(const std::vector<WallContact>& contacts,
+                               const ContactLaw& law, const Particles& p)
+{
+  EnergySum e;
+  for (const WallContact& c : contacts)
+    if (c.overlap > 0.0)
+      e.add(contact_energy(law, sides_at_wall(p.state[c.particle].R), c.overlap,
+                           c.f_s.squaredNorm()));
+  return e;
 }
 
 /// The candidates with their histories from `old`; both ascend in (particle, wall).

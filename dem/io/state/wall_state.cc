@@ -14,8 +14,8 @@ void check_particle(const std::string& name, std::uint32_t i, std::size_t n)
   if (i >= n) State::refuse(name, "names a particle that does not exist");
 }
 
-/// Columns of a contact: shear force, energy, overlap.
-constexpr std::size_t contact_columns = 5;
+/// Columns of a contact: shear force, overlap.
+constexpr std::size_t contact_columns = 4;
 
 void save_wall_contacts(State& state, const std::string& name,
                         const std::vector<WallContact>& contacts)
@@ -24,11 +24,11 @@ void save_wall_contacts(State& state, const std::string& name,
   std::vector<std::int32_t> patch;
   std::vector<double> history;
   for (const WallContact& c : contacts) {
-    if (!is_nonzero(c.f_s, c.energy)) continue;
+    if (!is_nonzero(c.f_s, c.overlap)) continue;
     particle.push_back(c.particle);
     patch.push_back(c.wall);
     append(history, c.f_s);
-    history.insert(history.end(), {c.energy, c.overlap});
+    history.push_back(c.overlap);
   }
   state.add(name + "_contact_grains", std::move(particle));
   state.add(name + "_contact_patches", std::move(patch));
@@ -50,8 +50,7 @@ std::vector<WallContact> load_wall_contacts(const State& state, const std::strin
        })) {
     check_particle(name + "_contact_grains", particle[k], n);
     const std::size_t at = contact_columns * k;
-    contacts.push_back(
-        {particle[k], patch[k], vec_at(history, at), history[at + 3], history[at + 4]});
+    contacts.push_back({particle[k], patch[k], vec_at(history, at), history[at + 3]});
   }
   return contacts;
 }
@@ -81,7 +80,7 @@ void load_wall(const State& state, const std::string& name, std::size_t n, Mirro
   }
 }
 
-constexpr std::size_t wall_bond_columns = 10;
+constexpr std::size_t wall_bond_columns = 9;
 
 void save_wall(State& state, const std::string& name, const Wall& wall)
 {
@@ -102,7 +101,6 @@ void save_wall(State& state, const std::string& name, const Wall& wall)
     append(history, b.anchor.weight);
     history.insert(history.end(), {b.gap_0, b.state.u_p, b.state.intact});
     append(history, b.V);
-    history.push_back(b.energy);
   }
   state.add(name + "_bond_grains", std::move(particle));
   state.add(name + "_bond_triangles", std::move(triangle));
@@ -147,7 +145,6 @@ void load_wall(const State& state, const std::string& name, std::size_t n, Wall&
     b.gap_0 = history[at + 3];
     b.state = {history[at + 4], history[at + 5]};
     b.V = vec_at(history, at + 6);
-    b.energy = history[at + 9];
     wall.bonds.push_back(b);
   }
 }

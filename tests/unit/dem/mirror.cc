@@ -29,6 +29,7 @@ struct Halved {
     clear_loads(p);
     add_wall_forces(mirror, material, 1e-4, p, losses);
   }
+  double stored() const { return stored_energy(mirror, material, p).value(); }
 };
 
 } // namespace
@@ -43,7 +44,7 @@ TEST_CASE("A bond to the mirror image stretches by twice the displacement", "[un
   CHECK(s.p.load[0].f.x() == 0.0);
   CHECK(s.mirror.force.value().y() == Approx(s.p.load[0].f.y()).epsilon(1e-12));
   // half of the pair's energy
-  CHECK(s.mirror.energy.value() == Approx(0.5 * 0.5 * k_n * 4e-12).epsilon(1e-9));
+  CHECK(s.stored() == Approx(0.5 * 0.5 * k_n * 4e-12).epsilon(1e-9));
 }
 
 TEST_CASE("The half model has the force, the loss and the breakage of the full pair",
@@ -65,7 +66,7 @@ TEST_CASE("The half model has the force, the loss and the breakage of the full p
     }
     whole.forces(dt);
     REQUIRE(half.p.load[0].f.y() == Approx(whole.p.load[0].f.y()).margin(1e-8));
-    REQUIRE(2.0 * half.mirror.energy.value() == Approx(whole.stored()).margin(1e-13));
+    REQUIRE(2.0 * half.stored() == Approx(whole.stored()).margin(1e-13));
     REQUIRE(2.0 * half.losses.plastic.value() ==
             Approx(whole.losses.plastic.value()).margin(1e-13));
   }

@@ -94,7 +94,7 @@ TEST_CASE("A plane acts along its normal, and a particle behind it stops the run
   CHECK(p.load[0].f.z() == Approx(1e9 * pi * R * 1.5e-5).epsilon(1e-9));
   CHECK(p.load[0].t.norm() < 1e-15);
   CHECK(on_plane.z() == Approx(-p.load[0].f.z()).epsilon(1e-14));
-  CHECK(stored_energy(plane).value() ==
+  CHECK(stored_energy(plane, p).value() ==
         Approx(0.5 * 1e9 * pi * R * 1.5e-5 * 1.5e-5).epsilon(1e-9));
 
   p.state[0].x.z() = 4.999e-3;
