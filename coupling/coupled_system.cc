@@ -8,7 +8,8 @@
 namespace mergel::coupling {
 
 CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>& specs)
-    : step_spec(spec.step), mass_scaling(spec.mass_scaling)
+    : step_spec(spec.step), mass_scaling(spec.mass_scaling),
+      largest_subcycle(spec.largest_subcycle)
 {
   assembly.material = spec.material;
   assembly.motion = spec.motion;
@@ -66,46 +67,51 @@ void CoupledSystem::find_time_step()
     throw InputError(
         "Specimen: no particles touch, none are bonded, and no structure has a "
         "stiffness: there is no stable time step");
+  choose_subcycles();
 }
 
 void CoupledSystem::check_time_step()
 {
   const StructureSystem system = structure_system();
+  const std::uint64_t n_before = stable_step.n_evaluations;
   dem::update_stable_step(stable_step, assembly, step_spec, n_steps, dt,
                           largest_damping(system), &system);
   dt = step_spec.safety * stable_step.limit;
+  if (stable_step.n_evaluations > n_before) choose_subcycles(); // the step may be longer
 }
 
-namespace {
-
-/// By wall and node: not less than the stiffness that the springs of the particles add to a
-/// node [N/m]. Half of the motion of a spring is counted for the particle, as in the block
-/// bound.
-std::vector<Nodal> stiffness_at_nodes(const dem::Assembly& assembly,
-                                      const dem::Springs& springs)
+/// By interface node: not less than the stiffness of the springs to the particles [N/m].
+std::vector<double> CoupledSystem::stiffness_at(const Member& s,
+                                                const dem::Springs& springs) const
 {
-  std::vector<std::vector<dem::VectorSum>> sums;
-  for (const dem::Wall& w : assembly.walls) sums.emplace_back(w.x.size());
+  const dem::Wall& wall = assembly.walls[s.wall];
+  std::vector<dem::VectorSum> sums(wall.x.size());
   for (const dem::WallSpring& k : springs.walls) {
-    if (k.wall == dem::WallSpring::held) continue;
-    const dem::Triangle& t =
-        assembly.walls[k.wall].topology.triangles[dem::uz(k.at.triangle)];
+    if (k.wall != s.wall) continue;
+    const dem::Triangle& t = wall.topology.triangles[dem::uz(k.at.triangle)];
     for (int c = 0; c < 3; ++c)
-      sums[k.wall][dem::uz(t[dem::uz(c)])].x.add(2.0 * std::max(k.k_n, k.k_s) *
-                                                 k.at.weight[c]);
+      sums[dem::uz(t[dem::uz(c)])].x.add(std::max(k.k_n, k.k_s) * k.at.weight[c]);
   }
   dem::ExactReduction all;
-  for (auto& wall : sums) all.add(wall);
+  all.add(sums);
   all.run(assembly.comm);
-  std::vector<Nodal> stiffness;
-  for (const auto& wall : sums) {
-    stiffness.emplace_back();
-    for (const dem::VectorSum& node : wall) stiffness.back().push_back(node.value());
-  }
+  Nodal of_wall, of_structure;
+  for (const dem::VectorSum& node : sums) of_wall.push_back(node.value());
+  s.exchange.transfer().to_structure(of_wall, of_structure);
+  std::vector<double> stiffness;
+  for (const dem::Vec3& k : of_structure) stiffness.push_back(k.x());
   return stiffness;
 }
 
-} // namespace
+void CoupledSystem::choose_subcycles()
+{
+  if (structures.empty() || largest_subcycle == 1) return;
+  const StructureSystem system = structure_system();
+  const dem::Springs springs = dem::present_springs(assembly, dt, &system);
+  for (Member& s : structures)
+    if (moves(s))
+      s.structure->choose_subcycle(dt, stiffness_at(s, springs), largest_subcycle);
+}
 
 void CoupledSystem::equalise_frequencies()
 {
@@ -114,13 +120,11 @@ void CoupledSystem::equalise_frequencies()
   const double omega2 = dem::block_bound(assembly, springs).omega2;
   if (omega2 > 0.0) {
     dem::equalise_frequencies(assembly, springs, omega2);
-    const std::vector<Nodal> of_walls = stiffness_at_nodes(assembly, springs);
     for (Member& s : structures) {
       if (!moves(s)) continue;
-      Nodal of_structure;
-      s.exchange.transfer().to_structure(of_walls[s.wall], of_structure);
-      std::vector<double> stiffness;
-      for (const dem::Vec3& k : of_structure) stiffness.push_back(k.x());
+      // Twice the stiffness: particle and node move against each other, as in the block bound.
+      std::vector<double> stiffness = stiffness_at(s, springs);
+      for (double& k : stiffness) k *= 2.0;
       s.structure->equalise_frequencies(omega2, stiffness);
     }
   }

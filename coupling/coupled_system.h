@@ -25,9 +25,11 @@ enum class SymmetryPlane {
 /// What a coupled system has besides particles and structures.
 struct CoupledSpec {
   dem::PairMaterials material;
-  dem::Motion motion;                           ///< of the particles
-  double skin = 0.0;                            ///< of the Verlet list at S = 1 [m], > 0
-  dem::StepSpec step;                           ///< rule and safety of the time step
+  dem::Motion motion;               ///< of the particles
+  double skin = 0.0;                ///< of the Verlet list at S = 1 [m], > 0
+  dem::StepSpec step;               ///< rule and safety of the time step
+  std::size_t largest_subcycle = 1; ///< of the structures: steps from kick to kick by their
+                                    ///< own forces, at most
   dem::MassScalingSpec mass_scaling;            ///< of the particles; off by default
   SymmetryPlane symmetry = SymmetryPlane::none; ///< of a half model
   dem::StrengthVariability strengths;           ///< drawn again when a state is loaded
@@ -63,6 +65,7 @@ struct CoupledSystem {
   bool are_structures_held = false; ///< true: none takes part in the steps
   dem::StepSpec step_spec;
   dem::MassScalingSpec mass_scaling;
+  std::size_t largest_subcycle = 1;
   dem::StableStep stable_step;
   double dt = 0.0;        ///< time step [s]
   double dt_before = 0.0; ///< previous time step [s]
@@ -134,6 +137,8 @@ private:
   StructureSystem structure_system() const; ///< of the structures that move
   double largest_damping(const StructureSystem& system) const;
   void check_time_step();
+  void choose_subcycles();
+  std::vector<double> stiffness_at(const Member& s, const dem::Springs& springs) const;
   std::string where() const; ///< step and time, for messages
 
   double spent_before_ = 0.0; ///< computing time at the last balance_load() [s]

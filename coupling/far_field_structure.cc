@@ -35,8 +35,27 @@ dem::NumbersOf<Motion> numbers_of(Motion& m)
           {"work at the interface [J]", &e.interface_work},
           {"work of gravity [J]", &e.gravity_work},
           {"work of the initial stress [J]", &e.initial_stress_work},
-          {"loss by damping [J]", &e.damping}};
+          {"loss by damping [J]", &e.damping},
+          {"window of its own forces [s]", &m.window},
+          {"time since they kicked [s]", &m.since}};
 }
+
+template <class Limit>
+dem::NumbersOf<Limit> subcycle_numbers(Limit& limit)
+{
+  return {{"limit of the subcycle [-]", &limit}};
+}
+
+template <class Motion>
+dem::CountsOf<Motion> counts_of(Motion& m)
+{
+  return {{"steps to the next kick by its own forces [-]", &m.n_left},
+          {"steps from kick to kick [-]", &m.subcycle}};
+}
+
+/// Longest window of the subcycle times the largest frequency [-]. In `pile_small` the energy
+/// error is 4e-4 at 0.34 and at 0.69, and 1.3e-3 at 1.03.
+constexpr double largest_window = 0.7;
 
 /// Length of a row of a nodal field: x, y, z and a fourth number for alignment.
 constexpr std::size_t nodal_columns = 4;
@@ -105,6 +124,14 @@ void FarFieldStructure::step(double dt, const Nodal& f)
   far_field_.step(dt, f);
 }
 
+void FarFieldStructure::choose_subcycle(double dt, std::span<const double> stiffness,
+                                        std::size_t most)
+{
+  subcycle_limit_ = largest_window / (far_field_.largest_frequency(stiffness) * dt);
+  far_field_.set_subcycle(static_cast<std::size_t>(
+      std::clamp(std::floor(subcycle_limit_), 1.0, static_cast<double>(most))));
+}
+
 std::optional<Nodal> FarFieldStructure::solve_static(const Nodal& f)
 {
   far_field_.solve_static(f);
@@ -145,6 +172,8 @@ void FarFieldStructure::save(dem::State& state, const std::string& name) const
   const Eigen::ArrayXd& m = far_field_.motion().m;
   state.add_common(name + "_m", std::vector<double>(m.data(), m.data() + m.size()), 1);
   dem::save_numbers(state, name + "_numbers", numbers_of(far_field_.motion()));
+  dem::save_numbers(state, name + "_subcycle", subcycle_numbers(subcycle_limit_));
+  dem::save_counts(state, name + "_counts", counts_of(far_field_.motion()));
 }
 
 void FarFieldStructure::load(const dem::State& state, const std::string& name)
@@ -159,6 +188,8 @@ void FarFieldStructure::load(const dem::State& state, const std::string& name)
       state.get_rows<double>(name + "_m", static_cast<std::size_t>(motion.m.size()), 1);
   std::copy(m.begin(), m.end(), motion.m.data());
   dem::load_numbers(state, name + "_numbers", numbers_of(motion));
+  dem::load_numbers(state, name + "_subcycle", subcycle_numbers(subcycle_limit_));
+  dem::load_counts(state, name + "_counts", counts_of(motion));
   far_field_.restore(std::move(motion));
 }
 

@@ -41,6 +41,12 @@ public:
     far_field_.equalise_frequencies(omega2, stiffness);
   }
   void restore_masses() override { far_field_.restore_masses(); }
+  void choose_subcycle(double dt, std::span<const double> stiffness,
+                       std::size_t most) override;
+  Subcycle subcycle() const override
+  {
+    return {far_field_.motion().subcycle, subcycle_limit_};
+  }
   double damping() const override { return far_field_.damping(); }
   std::size_t n_amplitudes() const override { return far_field_.n_amplitudes(); }
   void move(std::span<const double> y, Nodal& u) const override;
@@ -55,6 +61,7 @@ private:
   fem::FarField far_field_;
   Model model_;
   double collar_height_;
+  double subcycle_limit_ = 1.0;
 };
 
 } // namespace mergel::coupling

@@ -40,6 +40,9 @@ void declare_far_field(CaseFile& file, CoupledCase& c)
                     {"roller", fem::FarFieldSpec::Outer::roller},
                     {"fixed", fem::FarFieldSpec::Outer::fixed}},
                 "Chamber wall: no radial displacement, or none at all.");
+    file.integer("largest subcycle", c.largest_subcycle, between(1.0, 10.0),
+                 "Largest number of steps after which the far field's own forces act, by "
+                 "impulse; fewer where its frequency asks for it. 1: at every step.");
   }
   file.choice("interface", c.interface_bond,
               std::vector<std::pair<std::string, InterfaceBond>>{

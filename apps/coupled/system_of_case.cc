@@ -31,6 +31,7 @@ coupling::CoupledSpec coupled_spec(const CoupledCase& c)
   spec.symmetry = c.symmetry == Symmetry::mirror ? coupling::SymmetryPlane::bonded
                                                  : coupling::SymmetryPlane::contact;
   spec.strengths = c.strengths;
+  spec.largest_subcycle = static_cast<std::size_t>(c.largest_subcycle);
   return spec;
 }
 

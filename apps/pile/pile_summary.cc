@@ -3,6 +3,7 @@
 #include "apps/run/progress.h"
 #include "apps/run/step_report.h"
 
+#include <array>
 #include <sstream>
 
 namespace mergel::apps {
@@ -77,8 +78,27 @@ void add_figures(Summary& s, const Installation& run,
   s.count("far-field cells [-]", far_field_of(coupled).n_cells());
   s.count("steps [-]", coupled.n_steps);
   add_step(s, coupled.stable_step, coupled.dt);
+  const auto subcycle = coupled.structures.front().structure->subcycle();
+  s.count("steps from kick to kick by the far field's own forces [-]", subcycle.n);
+  s.number("limit of these steps [-]", subcycle.limit);
   add_mass_scaling(s, coupled.assembly.particles);
   s.number("wall-clock time [s]", seconds);
+}
+
+} // namespace
+
+namespace {
+
+/// "step", "3rd step (limit 3.4)".
+std::string ordinal(const coupling::Structure::Subcycle& subcycle)
+{
+  constexpr std::array<const char*, 11> ordinals{"",    "",    "2nd", "3rd", "4th", "5th",
+                                                 "6th", "7th", "8th", "9th", "10th"};
+  std::ostringstream text;
+  text.precision(3);
+  if (subcycle.n > 1) text << ordinals.at(subcycle.n) << ' ';
+  text << "step (limit " << subcycle.limit << ')';
+  return text.str();
 }
 
 } // namespace
@@ -111,7 +131,9 @@ void summarise(Summary& summary, const PileCase& c, const Installation& run,
       << " (force), " << run.worst_interface().moment << " (moment), "
       << run.worst_interface().power << " (power)\n"
       << "time step " << coupled.dt << " s, ruled by "
-      << dem::what_rules(coupled.stable_step) << '\n'
+      << dem::what_rules(coupled.stable_step)
+      << "; the far field's own forces act at every "
+      << ordinal(coupled.structures.front().structure->subcycle()) << '\n'
       << time_by_parts(coupled, work) << "whole run " << duration_text(work.seconds);
 }
 

@@ -231,7 +231,8 @@ void FarField::step(double dt, std::span<const Eigen::Vector3d> f_interface)
 
 double FarField::stable_time_step() const
 {
-  return 2.0 / largest_frequency(parts_->solid.discrete()); // > 0: the interface can move
+  return 2.0 /
+         fem::largest_frequency(parts_->solid.discrete()); // > 0: the interface can move
 }
 
 namespace {
@@ -295,6 +296,20 @@ void FarField::equalise_frequencies(double omega2, std::span<const double> stiff
   for (std::size_t n = 0; n < parts_->nodes.size(); ++n)
     k(parts_->nodes[n]) += stiffness[n];
   parts_->motion->set_masses(k / omega2);
+}
+
+double FarField::largest_frequency(std::span<const double> stiffness) const
+{
+  const DiscreteSolid& s = parts_->solid.discrete();
+  Eigen::ArrayXd to_ground = Eigen::ArrayXd::Zero(s.m.size());
+  for (std::size_t n = 0; n < parts_->nodes.size(); ++n)
+    to_ground(parts_->nodes[n]) = stiffness[n];
+  return fem::largest_frequency(s, motion().m, to_ground);
+}
+
+void FarField::set_subcycle(std::size_t s)
+{
+  parts_->motion->set_subcycle(s);
 }
 
 void FarField::restore_masses()

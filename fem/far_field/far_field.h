@@ -110,6 +110,13 @@ public:
   void equalise_frequencies(double omega2, std::span<const double> stiffness);
   void restore_masses(); ///< the true ones again, at rest
 
+  /// Its largest frequency with springs from its interface nodes to ground [1/s].
+  /// @param stiffness of these springs by interface node [N/m]
+  double largest_frequency(std::span<const double> stiffness) const;
+  /// Kick by its own forces at every s-th step only, s >= 1, from the next window on (see
+  /// Leapfrog).
+  void set_subcycle(std::size_t s);
+
   const NodalMotion& motion() const; ///< the state that a restart needs
   void restore(NodalMotion state);   ///< throws std::invalid_argument for another mesh
 

@@ -10,8 +10,14 @@ namespace mergel::fem {
 
 double largest_frequency(const DiscreteSolid& solid)
 {
+  return largest_frequency(solid, solid.m, Eigen::ArrayXd::Zero(solid.m.size()));
+}
+
+double largest_frequency(const DiscreteSolid& solid, const Eigen::ArrayXd& m,
+                         const Eigen::ArrayXd& to_ground)
+{
   const auto n = static_cast<Eigen::Index>(solid.n_nodes());
-  const Eigen::ArrayXd root = solid.m.sqrt().inverse(); // m > 0
+  const Eigen::ArrayXd root = m.sqrt().inverse(); // m > 0
   NodalField scale(4, n);
   for (Eigen::Index a = 0; a < n; ++a) scale.col(a).setConstant(root(a));
 
@@ -34,6 +40,7 @@ double largest_frequency(const DiscreteSolid& solid)
   for (int k = 0; k < largest_basis; ++k) {
     const NodalField s = scale * q;
     solid.K.multiply(s, Kq);
+    Kq += s.rowwise() * to_ground.transpose();
     NodalField w = scale * Kq;
     const double alpha = dot(q, w);
     w -= alpha * q;

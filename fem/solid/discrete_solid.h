@@ -29,5 +29,9 @@ struct DiscreteSolid {
 /// Largest omega [rad/s] of K u = omega^2 m u, by Lanczos iteration until the estimate
 /// changes by less than 1e-6 of itself (fem/README.md, Stable step).
 double largest_frequency(const DiscreteSolid& solid);
+/// The same with other masses of the nodes [kg], and springs from the nodes to ground, equal in
+/// all directions [N/m].
+double largest_frequency(const DiscreteSolid& solid, const Eigen::ArrayXd& m,
+                         const Eigen::ArrayXd& to_ground);
 
 } // namespace mergel::fem

@@ -14,7 +14,9 @@ Leapfrog::Leapfrog(const DiscreteSolid& solid, double alpha,
     throw std::invalid_argument("local damping of the solid = " + std::to_string(alpha) +
                                 ": must satisfy 0 <= damping < 1");
   const auto n = static_cast<Eigen::Index>(solid.n_nodes());
-  now_.u = now_.v = now_.Ku = now_.f_interface = NodalField::Zero(4, n);
+  now_.u = now_.v = now_.Ku = now_.f_interface = next_Ku_ = NodalField::Zero(4, n);
+  is_loaded_.assign(solid.n_nodes(), 0);
+  for (const auto a : loaded_) is_loaded_[a] = 1;
   set_masses(solid.m);
 }
 
@@ -30,82 +32,159 @@ void Leapfrog::load_interface_forces(std::span<const Vec3> f)
   }
 }
 
-void Leapfrog::step(double dt, std::span<const Vec3> f)
+namespace {
+
+NodeLanes load(const NodalField& field, Eigen::Index a)
 {
-  load_interface_forces(f);
-  product_.multiply(now_.u, now_.Ku);
+  NodeLanes lanes;
+  std::memcpy(&lanes, field.data() + 4 * a, sizeof lanes);
+  return lanes;
+}
 
-  const double dt_kick = now_.dt > 0.0 ? 0.5 * (now_.dt + dt) : dt;
-  const auto n = static_cast<Eigen::Index>(solid_.n_nodes());
-  const NodeLanes zero = {0.0, 0.0, 0.0, 0.0};
-  NodeLanes power_interface = zero, power_gravity = zero, power_initial = zero,
-            power_damping = zero;
+void store(NodalField& field, Eigen::Index a, const NodeLanes& lanes)
+{
+  std::memcpy(field.data() + 4 * a, &lanes, sizeof lanes);
+}
 
-  const auto load = [](NodeLanes& lanes, const NodalField& field, Eigen::Index a) {
-    std::memcpy(&lanes, field.data() + 4 * a, sizeof lanes);
-  };
-  for (Eigen::Index a = 0; a < n; ++a) {
-    NodeLanes f_interface, f_gravity, f_initial, Ku, v;
-    load(f_interface, now_.f_interface, a);
-    load(f_gravity, solid_.f_gravity, a);
-    load(f_initial, solid_.f_initial, a);
-    load(Ku, now_.Ku, a);
-    load(v, now_.v, a);
+double sum(const NodeLanes& s)
+{
+  return (s[0] + s[1]) + s[2];
+}
 
-    const NodeLanes f_a = f_interface + f_gravity - f_initial - Ku;
-    const NodeLanes drag = alpha_ * (f_a < 0.0 ? -f_a : f_a);
-    const NodeLanes f_damping = v > 0.0 ? drag : (v < 0.0 ? -drag : zero);
-    const NodeLanes v_new = v + (f_a - f_damping) * (dt_kick * inverse_m_[a]);
+} // namespace
 
-    const NodeLanes v_mean = 0.5 * (v + v_new);
-    power_interface += f_interface * v_mean;
-    power_gravity += f_gravity * v_mean;
-    power_initial -= f_initial * v_mean;
-    power_damping += f_damping * v_mean;
-    std::memcpy(now_.v.data() + 4 * a, &v_new, sizeof v_new);
+struct Leapfrog::Powers {
+  NodeLanes interface = {0.0, 0.0, 0.0, 0.0}, gravity = interface, initial = interface,
+            damping = interface; ///< times the duration of the kick [J]
+
+  void add_to(Energies& e) const
+  {
+    e.interface_work += sum(interface);
+    e.gravity_work += sum(gravity);
+    e.initial_stress_work += sum(initial);
+    e.damping += sum(damping);
   }
+};
+
+/// The velocity of a node after its kick: by the interface force over dt_kick, by its own
+/// forces over window_kick. Damping sees all forces, and acts whenever the node is kicked.
+NodeLanes Leapfrog::kicked(Eigen::Index a, double dt_kick, double window_kick,
+                           Powers& sum) const
+{
+  const NodeLanes zero = {0.0, 0.0, 0.0, 0.0};
+  const NodeLanes f_interface = load(now_.f_interface, a),
+                  f_gravity = load(solid_.f_gravity, a),
+                  f_initial = load(solid_.f_initial, a), v = load(now_.v, a);
+  const NodeLanes own = f_gravity - f_initial - load(now_.Ku, a), f_a = f_interface + own;
+  const NodeLanes drag = alpha_ * (f_a < 0.0 ? -f_a : f_a);
+  const NodeLanes f_damping = v > 0.0 ? drag : (v < 0.0 ? -drag : zero);
+  const double dt_damping = is_loaded_[static_cast<std::size_t>(a)] ? dt_kick : window_kick;
+  const NodeLanes impulse =
+      f_interface * dt_kick + own * window_kick - f_damping * dt_damping;
+  const NodeLanes v_new = v + impulse * inverse_m_[a];
+
+  const NodeLanes v_mean = 0.5 * (v + v_new);
+  sum.interface += f_interface * v_mean * dt_kick;
+  sum.gravity += f_gravity * v_mean * window_kick;
+  sum.initial -= f_initial * v_mean * window_kick;
+  sum.damping += f_damping * v_mean * dt_damping;
+  return v_new;
+}
+
+void Leapfrog::kick_all(double dt_kick, double window_kick)
+{
+  Powers powers;
+  const auto n = static_cast<Eigen::Index>(solid_.n_nodes());
+  for (Eigen::Index a = 0; a < n; ++a)
+    store(now_.v, a, kicked(a, dt_kick, window_kick, powers));
   // Component-wise damping leaves the range of an oblique P. The part that P removes here
   // is normal to the old and the new velocity, so the works above do not change.
   for (const auto a : solid_.oblique)
     now_.v.col(a).head<3>() = (solid_.P[a] * at(now_.v, a)).array();
+  powers.add_to(now_.energy);
+}
 
-  NodeLanes strain = zero;
-  for (Eigen::Index a = 0; a < n; ++a) {
-    NodeLanes u, v, Ku;
-    load(u, now_.u, a);
-    load(v, now_.v, a);
-    load(Ku, now_.Ku, a);
-    u += dt * v;
-    strain += Ku * u;
-    std::memcpy(now_.u.data() + 4 * a, &u, sizeof u);
+void Leapfrog::kick_loaded(double dt_kick)
+{
+  Powers powers;
+  for (const auto a : loaded_) {
+    store(now_.v, a, kicked(a, dt_kick, 0.0, powers));
+    now_.v.col(a).head<3>() = (solid_.P[a] * at(now_.v, a)).array();
   }
+  powers.add_to(now_.energy);
+}
 
-  const auto sum = [](const NodeLanes& s) { return (s[0] + s[1]) + s[2]; };
-  now_.energy.strain = 0.5 * sum(strain);
-  now_.energy.interface_work += dt_kick * sum(power_interface);
-  now_.energy.gravity_work += dt_kick * sum(power_gravity);
-  now_.energy.initial_stress_work += dt_kick * sum(power_initial);
-  now_.energy.damping += dt_kick * sum(power_damping);
+/// Loaded nodes at every step, all others at the end of the window.
+void Leapfrog::drift(double dt)
+{
+  const bool is_end = now_.n_left == 0;
+  if (now_.subcycle == 1 && now_.since == dt) { // the window is this step
+    now_.u += dt * now_.v;
+    return;
+  }
+  for (const auto a : loaded_) now_.u.col(a) += dt * now_.v.col(a);
+  if (!is_end) return;
+  const auto n = static_cast<Eigen::Index>(solid_.n_nodes());
+  for (Eigen::Index a = 0; a < n; ++a)
+    if (!is_loaded_[static_cast<std::size_t>(a)])
+      now_.u.col(a) += now_.since * now_.v.col(a);
+}
+
+void Leapfrog::step(double dt, std::span<const Vec3> f)
+{
+  load_interface_forces(f);
+  const double dt_kick = now_.dt > 0.0 ? 0.5 * (now_.dt + dt) : dt;
+  if (now_.n_left == 0) {
+    if (!is_product_begun_) product_.start(now_.u, next_Ku_);
+    product_.finish();
+    is_product_begun_ = false;
+    std::swap(now_.Ku, next_Ku_);
+    const double window = dt * static_cast<double>(now_.subcycle);
+    kick_all(dt_kick, now_.since > 0.0 ? 0.5 * (now_.since + window) : window);
+    now_.n_left = now_.subcycle;
+    now_.window = window;
+    now_.since = 0.0;
+    now_.energy.strain = 0.5 * (dot(now_.Ku, now_.u) + window * dot(now_.Ku, now_.v));
+  } else {
+    kick_loaded(dt_kick);
+  }
+  now_.since += dt;
+  --now_.n_left;
+  drift(dt);
   now_.dt = dt;
+  if (now_.n_left > 0) return;
+  product_.start(now_.u, next_Ku_); // on its way while the particles move
+  is_product_begun_ = true;
+}
+
+/// What moves on starts a window, with its own product.
+void Leapfrog::begin_again()
+{
+  product_.finish();
+  is_product_begun_ = false;
 }
 
 void Leapfrog::rest_at(const NodalField& u, std::span<const Vec3> f)
 {
   load_interface_forces(f);
+  begin_again();
   now_.u = u;
   now_.v.setZero();
   solid_.K.multiply(now_.u, now_.Ku);
-  now_.dt = 0.0;
+  now_.dt = now_.window = now_.since = 0.0;
+  now_.n_left = 0;
   now_.energy = {};
   now_.energy.strain = 0.5 * dot(now_.Ku, now_.u);
 }
 
 void Leapfrog::set_masses(const Eigen::ArrayXd& m)
 {
+  begin_again();
   now_.m = m;
   inverse_m_ = m.inverse();
   now_.v.setZero();
-  now_.dt = 0.0;
+  now_.dt = now_.window = now_.since = 0.0;
+  now_.n_left = 0;
 }
 
 void Leapfrog::restore(NodalMotion state)
@@ -119,6 +198,7 @@ void Leapfrog::restore(NodalMotion state)
           "; restart with the mesh of the first run");
   if (state.m.size() != n || !(state.m > 0.0).all())
     throw std::invalid_argument("state of the far field: a node without mass");
+  begin_again();
   now_ = std::move(state);
   inverse_m_ = now_.m.inverse();
 }

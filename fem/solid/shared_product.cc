@@ -32,16 +32,22 @@ SharedProduct::SharedProduct(const BlockMatrix& A, MPI_Comm comm) : A_(A), comm_
   }
 }
 
-void SharedProduct::multiply(const NodalField& x, NodalField& y) const
+void SharedProduct::start(const NodalField& x, NodalField& y)
 {
+  finish();
   if (comm_ == MPI_COMM_NULL) {
     A_.multiply(x, y);
     return;
   }
   y.resize(4, x.cols());
   A_.multiply(x, y, mine_);
-  MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, y.data(), count_.data(), start_.data(),
-                 MPI_DOUBLE, comm_);
+  MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, y.data(), count_.data(),
+                  start_.data(), MPI_DOUBLE, comm_, &request_);
+}
+
+void SharedProduct::finish()
+{
+  if (request_ != MPI_REQUEST_NULL) MPI_Wait(&request_, MPI_STATUS_IGNORE);
 }
 
 } // namespace mergel::fem
