@@ -29,6 +29,16 @@ struct ContactRecord {
   std::array<double, 3> history; ///< f_s
 };
 
+Contacts contacts_of(const std::vector<ContactRecord>& records)
+{
+  Contacts contacts;
+  for (const ContactRecord& r : records) {
+    contacts.pairs.push_back(r.pair);
+    contacts.shear.emplace_back().f_s = Vec3(r.history[0], r.history[1], r.history[2]);
+  }
+  return contacts;
+}
+
 std::vector<BondRecord> bond_records(const Bonds& bonds)
 {
   std::vector<BondRecord> records;
@@ -47,6 +57,25 @@ std::vector<ContactRecord> contact_records(const Contacts& contacts)
   return records;
 }
 
+/// @param all of the owners of the first particles, ascending; @param others of the same
+///   pairs by another rank
+/// @throws std::logic_error for a pair whose histories differ
+template <class Record>
+void compare_with(const std::vector<Record>& all, const std::vector<Record>& others,
+                  const Particles& p)
+{
+  for (const Record& r : others) {
+    const auto at =
+        std::lower_bound(all.begin(), all.end(), r,
+                         [](const Record& a, const Record& b) { return a.pair < b.pair; });
+    if (at == all.end() || !(at->pair == r.pair) ||
+        std::memcmp(at->history.data(), r.history.data(), sizeof r.history) != 0)
+      throw std::logic_error(
+          "two ranks hold different histories of the pair of particles " +
+          std::to_string(p.id[r.pair.i]) + " and " + std::to_string(p.id[r.pair.j]));
+  }
+}
+
 /// Records of pairs from all ranks, each once, ascending. The owner of the first particle
 /// supplies the record. If `compare` is set, it is compared with the record of the owner of
 /// the second particle.
@@ -63,19 +92,95 @@ std::vector<Record> gathered(const Assembly& assembly, std::vector<Record> recor
       second.push_back(r);
   }
   std::vector<Record> all = assembly.comm.gather(first);
-  const auto ascending = [](const Record& a, const Record& b) { return a.pair < b.pair; };
-  std::sort(all.begin(), all.end(), ascending);
-  if (compare)
-    for (const Record& r : assembly.comm.gather(second)) {
-      const auto at = std::lower_bound(all.begin(), all.end(), r, ascending);
-      if (at == all.end() || !(at->pair == r.pair) ||
-          std::memcmp(at->history.data(), r.history.data(), sizeof r.history) != 0)
-        throw std::logic_error(
-            "two ranks hold different histories of the pair of particles " +
-            std::to_string(p.id[r.pair.i]) + " and " + std::to_string(p.id[r.pair.j]));
-    }
+  std::sort(all.begin(), all.end(),
+            [](const Record& a, const Record& b) { return a.pair < b.pair; });
+  if (compare) compare_with(all, assembly.comm.gather(second), p);
   return all;
 }
+
+/// Compare the histories that two ranks hold of the pairs across their border.
+template <class Record>
+void compare_over_borders(const Assembly& assembly, const std::vector<Record>& records,
+                          const std::vector<int>& owner)
+{
+  const Particles& p = assembly.particles;
+  std::vector<Record> first;
+  std::vector<std::vector<Record>> to(static_cast<std::size_t>(assembly.comm.n_ranks()));
+  for (const Record& r : records) {
+    if (p.owns(r.pair.i))
+      first.push_back(r);
+    else
+      to[static_cast<std::size_t>(owner[r.pair.i])].push_back(r);
+  }
+  compare_with(first, assembly.comm.exchange(to), p);
+}
+
+void compare_histories(const Assembly& assembly)
+{
+  const std::vector<int> owner = assembly.partition.owners();
+  compare_over_borders(assembly, bond_records(assembly.bonds), owner);
+  compare_over_borders(assembly, contact_records(assembly.contacts), owner);
+}
+
+/// Records that move with their particles from a partition to the next. Ranks exchange those
+/// that they lack, no others.
+class Migration {
+public:
+  /// @param before, after the rank that owned each particle, and that owns it now
+  Migration(const Communicator& comm, const std::vector<int>& before,
+            std::vector<int> after)
+      : comm_(comm), before_(before), after_(std::move(after))
+  {
+  }
+
+  /// Records of pairs, ascending: a rank has those of its particles.
+  template <class Record>
+  std::vector<Record> of_pairs(const std::vector<Record>& records) const
+  {
+    std::vector<std::vector<Record>> to(static_cast<std::size_t>(comm_.n_ranks()));
+    std::vector<Record> mine;
+    for (const Record& r : records) {
+      const Index i = r.pair.i, j = r.pair.j;
+      if (after_[i] == comm_.rank() || after_[j] == comm_.rank()) mine.push_back(r);
+      if (before_[i] != comm_.rank()) continue; // the owner of the first particle sends
+      const auto send = [&](int rank) {
+        if (rank != before_[i] && rank != before_[j])
+          to[static_cast<std::size_t>(rank)].push_back(r);
+      };
+      send(after_[i]);
+      if (after_[j] != after_[i]) send(after_[j]);
+    }
+    append(comm_.exchange(to), mine);
+    std::sort(mine.begin(), mine.end(),
+              [](const Record& a, const Record& b) { return a.pair < b.pair; });
+    return mine;
+  }
+
+  /// Records of single particles, which their owners have.
+  template <class Record>
+  std::vector<Record> of_particles(const std::vector<Record>& records) const
+  {
+    std::vector<std::vector<Record>> to(static_cast<std::size_t>(comm_.n_ranks()));
+    std::vector<Record> mine;
+    for (const Record& r : records) {
+      const int rank = after_[r.particle];
+      (rank == comm_.rank() ? mine : to[static_cast<std::size_t>(rank)]).push_back(r);
+    }
+    append(comm_.exchange(to), mine);
+    return mine;
+  }
+
+private:
+  template <class Record>
+  static void append(const std::vector<Record>& more, std::vector<Record>& to)
+  {
+    to.insert(to.end(), more.begin(), more.end());
+  }
+
+  const Communicator& comm_;
+  const std::vector<int>& before_;
+  const std::vector<int> after_;
+};
 
 /// Records of single particles from all ranks, in the order of `key`.
 template <class Record, class Key>
@@ -105,6 +210,32 @@ struct ParticleRecord {
   int n_bonds;
   std::array<double, 6> load; ///< f, t
 };
+
+/// Of the particles that this rank owned before.
+std::vector<ParticleRecord> particle_records(const Particles& p,
+                                             const std::vector<Index>& owned)
+{
+  std::vector<ParticleRecord> records;
+  for (const Index i : owned) {
+    const Vec3 &f = p.load[i].f, &t = p.load[i].t;
+    records.push_back({i, p.n_bonds[i], {f.x(), f.y(), f.z(), t.x(), t.y(), t.z()}});
+  }
+  return records;
+}
+
+void restore(const ParticleRecord& g, Particles& p)
+{
+  p.n_bonds[g.particle] = g.n_bonds;
+  p.load[g.particle].f = {g.load[0], g.load[1], g.load[2]};
+  p.load[g.particle].t = {g.load[3], g.load[4], g.load[5]};
+}
+
+std::vector<Index> owned_particles(const Particles& p)
+{
+  std::vector<Index> owned;
+  p.for_owned([&](Index i) { owned.push_back(i); });
+  return owned;
+}
 
 /// Drop all bonds, contacts and wall contacts without an owned particle.
 void keep_own(Assembly& assembly)
@@ -173,24 +304,13 @@ Assembly gather(Assembly& assembly, bool compare)
   all.ghosts = Ghosts();
 
   Particles& p = all.particles;
-  std::vector<ParticleRecord> particles;
-  assembly.particles.for_owned([&](Index i) {
-    const Vec3 &f = p.load[i].f, &t = p.load[i].t;
-    particles.push_back({i, p.n_bonds[i], {f.x(), f.y(), f.z(), t.x(), t.y(), t.z()}});
-  });
-  for (const ParticleRecord& g : assembly.comm.gather(particles)) {
-    p.n_bonds[g.particle] = g.n_bonds;
-    p.load[g.particle].f = {g.load[0], g.load[1], g.load[2]};
-    p.load[g.particle].t = {g.load[3], g.load[4], g.load[5]};
-  }
+  for (const ParticleRecord& g :
+       assembly.comm.gather(particle_records(p, owned_particles(assembly.particles))))
+    restore(g, p);
 
   all.bonds = bonds_of(gathered(assembly, bond_records(assembly.bonds), compare));
-  all.contacts = {};
-  for (const ContactRecord& r :
-       gathered(assembly, contact_records(assembly.contacts), compare)) {
-    all.contacts.pairs.push_back(r.pair);
-    all.contacts.shear.emplace_back().f_s = Vec3(r.history[0], r.history[1], r.history[2]);
-  }
+  all.contacts =
+      contacts_of(gathered(assembly, contact_records(assembly.contacts), compare));
 
   for_each_wall(assembly, all, [&](auto& mine, auto& wall) {
     const auto gather_one = [&](const auto& records, auto& to) {
@@ -239,20 +359,32 @@ void rebalance(Assembly& assembly, double seconds, bool compare)
   std::vector<double> weight;
   p.for_owned([&](Index i) { weight.push_back(seconds * pairs[i] / all_pairs); });
 
-  Assembly all = gather(assembly, compare);
+  if (compare) compare_histories(assembly);
+  assembly.partition.gather_motion(p, assembly.comm);
+  const std::vector<int> before = assembly.partition.owners();
+  const std::vector<Index> owned = owned_particles(p);
   assembly.partition.assign(p, weight, assembly.comm);
   assembly.ghosts.clear();
-  // Replace only what migrates: callers hold references to walls.
-  std::vector<char> is_owned(p.size(), 0);
-  p.for_owned([&](Index i) { is_owned[i] = 1; });
-  all.particles.set_ownership(std::move(is_owned), std::vector<char>(p.size(), 0));
-  p = std::move(all.particles);
-  assembly.bonds = std::move(all.bonds);
-  assembly.contacts = std::move(all.contacts);
-  for_each_wall(assembly, all, [](auto& wall, auto& gathered_wall) {
-    histories(wall) = histories(gathered_wall);
+  const Migration migration(assembly.comm, before, assembly.partition.owners());
+
+  for (const ParticleRecord& g : migration.of_particles(particle_records(p, owned)))
+    restore(g, p);
+  assembly.bonds = bonds_of(migration.of_pairs(bond_records(assembly.bonds)));
+  assembly.contacts = contacts_of(migration.of_pairs(contact_records(assembly.contacts)));
+  for_each_wall(assembly, [&](auto& wall) {
+    std::apply(
+        [&](auto&... lists) {
+          const auto migrate = [&](auto& list) {
+            list = migration.of_particles(list);
+            std::stable_sort(list.begin(), list.end(), [](const auto& r, const auto& s) {
+              return key_of(r) < key_of(s);
+            });
+          };
+          (migrate(lists), ...);
+        },
+        histories(wall));
   });
-  keep_own(assembly);
+  assembly.list.invalidate();
 }
 
 } // namespace mergel::dem

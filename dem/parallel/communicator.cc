@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace mergel::dem {
 
@@ -48,21 +49,59 @@ void Communicator::agree_on(const Fault& fault) const
   if (!message.empty()) throw Unstable(message);
 }
 
+namespace {
+
+/// A record as MPI sends it.
+class RecordType {
+public:
+  explicit RecordType(std::size_t size)
+  {
+    MPI_Type_contiguous(static_cast<int>(size), MPI_BYTE, &type_);
+    MPI_Type_commit(&type_);
+  }
+  ~RecordType() { MPI_Type_free(&type_); }
+  RecordType(const RecordType&) = delete;
+  RecordType& operator=(const RecordType&) = delete;
+
+  MPI_Datatype type() const { return type_; }
+
+private:
+  MPI_Datatype type_;
+};
+
+/// Where the records of each rank begin, and the number of all.
+std::pair<std::vector<int>, std::size_t> positions(const std::vector<int>& counts)
+{
+  std::vector<int> at(counts.size());
+  std::exclusive_scan(counts.begin(), counts.end(), at.begin(), 0);
+  return {at, static_cast<std::size_t>(at.back() + counts.back())};
+}
+
+} // namespace
+
 void Communicator::gather_bytes(const void* mine, std::size_t n, std::size_t size,
                                 const std::function<void*(std::size_t)>& allocate) const
 {
-  const auto n_ranks = static_cast<std::size_t>(n_ranks_);
-  std::vector<int> counts(n_ranks), at(n_ranks);
+  std::vector<int> counts(static_cast<std::size_t>(n_ranks_));
   const int own = static_cast<int>(n);
   MPI_Allgather(&own, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
-  std::exclusive_scan(counts.begin(), counts.end(), at.begin(), 0);
-  MPI_Datatype record;
-  MPI_Type_contiguous(static_cast<int>(size), MPI_BYTE, &record);
-  MPI_Type_commit(&record);
-  MPI_Allgatherv(mine, own, record,
-                 allocate(static_cast<std::size_t>(at.back() + counts.back())),
-                 counts.data(), at.data(), record, comm_);
-  MPI_Type_free(&record);
+  const auto [at, all] = positions(counts);
+  const RecordType record(size);
+  MPI_Allgatherv(mine, own, record.type(), allocate(all), counts.data(), at.data(),
+                 record.type(), comm_);
+}
+
+void Communicator::exchange_bytes(const void* mine, const std::vector<int>& counts,
+                                  std::size_t size,
+                                  const std::function<void*(std::size_t)>& allocate) const
+{
+  std::vector<int> received(counts.size());
+  MPI_Alltoall(counts.data(), 1, MPI_INT, received.data(), 1, MPI_INT, comm_);
+  const auto [from, n_sent] = positions(counts);
+  const auto [at, n_received] = positions(received);
+  const RecordType record(size);
+  MPI_Alltoallv(mine, counts.data(), from.data(), record.type(), allocate(n_received),
+                received.data(), at.data(), record.type(), comm_);
 }
 
 } // namespace mergel::dem

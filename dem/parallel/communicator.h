@@ -46,8 +46,29 @@ public:
     return all;
   }
 
+  /// What all ranks have for this one, in the order of the ranks; collective.
+  /// @param to for each rank the records that it shall get
+  template <class Record>
+  std::vector<Record> exchange(const std::vector<std::vector<Record>>& to) const
+  {
+    std::vector<Record> mine, received;
+    std::vector<int> counts;
+    for (const std::vector<Record>& records : to) {
+      mine.insert(mine.end(), records.begin(), records.end());
+      counts.push_back(static_cast<int>(records.size()));
+    }
+    if (is_alone()) return mine;
+    exchange_bytes(mine.data(), counts, sizeof(Record), [&received](std::size_t n) {
+      received.resize(n);
+      return static_cast<void*>(received.data());
+    });
+    return received;
+  }
+
 private:
   friend class ExactReduction;
+  void exchange_bytes(const void* mine, const std::vector<int>& counts, std::size_t size,
+                      const std::function<void*(std::size_t)>& allocate) const;
   void gather_bytes(const void* mine, std::size_t n, std::size_t size,
                     const std::function<void*(std::size_t)>& allocate) const;
 

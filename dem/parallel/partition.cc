@@ -140,6 +140,16 @@ void Partition::list_owners(const Particles& p, const Communicator& comm)
   }
 }
 
+std::vector<int> Partition::owners() const
+{
+  std::size_t n = 0;
+  for (const std::vector<Index>& particles : owned_by_) n += particles.size();
+  std::vector<int> owner(n);
+  for (std::size_t r = 0; r < owned_by_.size(); ++r)
+    for (const Index i : owned_by_[r]) owner[i] = static_cast<int>(r);
+  return owner;
+}
+
 void Partition::gather_motion(Particles& p, const Communicator& comm) const
 {
   if (comm.is_alone()) return;

@@ -33,6 +33,8 @@ public:
 
   /// Particles of a rank, ascending. @pre assign() was called
   const std::vector<Index>& owned_by(std::size_t rank) const { return owned_by_[rank]; }
+  /// The rank that owns each particle. @pre assign() was called
+  std::vector<int> owners() const;
 
 private:
   void list_owners(const Particles& p, const Communicator& comm);
