@@ -1,5 +1,7 @@
 #include "dem/assembly/energy_balance.h"
 
+#include "dem/pairs/pair_sums.h"
+
 #include <cmath>
 
 namespace mergel::dem {
@@ -7,14 +9,12 @@ namespace mergel::dem {
 EnergyBalance energy_balance(const Assembly& assembly, double dt)
 {
   EnergyBalance e;
-  Particles now = assembly.particles;
-  KickWork work = assembly.work;
-  kick(now, assembly.motion, 0.5 * dt, work);
-  EnergySum kinetic = kinetic_energy_sum(now, assembly.motion), walls, mirror;
-  PairEnergy pairs = pair_energy(assembly.material, assembly.cell, assembly.particles,
-                                 assembly.bonds, assembly.contacts);
   const PairMaterials& material = assembly.material;
   const Particles& p = assembly.particles;
+  KickWork work = assembly.work;
+  EnergySum kinetic = kinetic_energy_after_kick(p, assembly.motion, 0.5 * dt, work), walls,
+            mirror;
+  PairSums pairs = sum_pairs(material, assembly.cell, p, assembly.bonds, assembly.contacts);
   for (const Mirror& m : assembly.mirrors) mirror += stored_energy(m, material, p);
   for (const Wall& w : assembly.walls) walls += stored_energy(w, material, p);
   for (const RigidWall& w : assembly.rigid_walls) walls += stored_energy(w, p);

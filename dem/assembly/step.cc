@@ -1,4 +1,5 @@
 #include "dem/assembly/step.h"
+#include "dem/pairs/pair_sums.h"
 #include "dem/timer.h"
 
 #include <algorithm>
@@ -134,35 +135,12 @@ void add_forces_to_cleared(Assembly& assembly, double dt)
   lap(assembly.times.exchange);
 }
 
-namespace {
-
-/// Sum of the magnitudes of the pair forces, each counted for both particles [N]. Pairs
-/// whose first particle is owned.
-ForceSum sum_of_pair_forces(const Assembly& assembly)
-{
-  const Particles& p = assembly.particles;
-  const PairMaterials& material = assembly.material;
-  ForceSum sum;
-  const auto contact_force = [&](const Pair& q) {
-    return read_contact(q, Vec3::Zero(), p, assembly.cell, material.contact).f_n;
-  };
-  const Bonds& bonds = assembly.bonds;
-  for (std::size_t b = 0; b < bonds.size(); ++b) {
-    if (!p.owns(bonds.pairs[b].i)) continue;
-    const BondReading r = read_bond(bonds, b, p, assembly.cell, material.bond);
-    sum.add(2.0 * (std::hypot(r.N, r.V.norm()) + contact_force(bonds.pairs[b])));
-  }
-  for (const Pair& q : assembly.contacts.pairs)
-    if (p.owns(q.i)) sum.add(2.0 * contact_force(q));
-  return sum;
-}
-
-} // namespace
-
 double unbalanced_ratio(const Assembly& assembly)
 {
   ForceSum resultants = sum_of_resultants(assembly.particles, assembly.motion);
-  ForceSum forces = sum_of_pair_forces(assembly);
+  ForceSum forces = sum_pairs(assembly.material, assembly.cell, assembly.particles,
+                              assembly.bonds, assembly.contacts)
+                        .forces;
   ExactReduction sums;
   sums.add(resultants);
   sums.add(forces);

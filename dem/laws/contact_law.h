@@ -33,8 +33,9 @@ concept IsContactLaw =
   { contact_stiffness(law, many, S) } -> std::same_as<ContactStiffness<Lanes>>;
   { contact_stiffness(law, sides, number) } -> std::same_as<ContactStiffness<double>>;
   { normal_force(law, sides, number) } -> std::same_as<double>;
+  { normal_force(law, many, S) } -> std::same_as<Lanes>;
   { contact_energy(law, sides, number, number) } -> std::same_as<double>;
-  { contact_energy_of_force(law, sides, number, number) } -> std::same_as<double>;
+  { contact_energy(law, many, S, S) } -> std::same_as<Lanes>;
   { contact_step(law, many, S, by) } -> std::same_as<ContactStep<Lanes>>;
   { contact_step(law, sides, number, by_one) } -> std::same_as<ContactStep<double>>;
 };

@@ -68,25 +68,18 @@ contact_stiffness(const HertzMaterial& c, const ContactSides<Real>& s, const Rea
   return {2.0 * c.E_star(s.n_elastic) * a, 8.0 * c.G_star(s.n_elastic) * a};
 }
 
-inline double normal_force(const HertzMaterial& c, const ContactSides<double>& s,
-                           double overlap)
+template <class Real>
+Real normal_force(const HertzMaterial& c, const ContactSides<Real>& s, const Real& overlap)
 {
   return 2.0 / 3.0 * contact_stiffness(c, s, overlap).k_n * overlap;
 }
 
-inline double contact_energy(const HertzMaterial& c, const ContactSides<double>& s,
-                             double overlap, double f_s_squared)
+template <class Real>
+Real contact_energy(const HertzMaterial& c, const ContactSides<Real>& s,
+                    const Real& overlap, const Real& f_s_squared)
 {
   const auto k = contact_stiffness(c, s, overlap);
   return 4.0 / 15.0 * k.k_n * overlap * overlap + 0.5 * f_s_squared / k.k_s;
-}
-
-inline double contact_energy_of_force(const HertzMaterial& c, const ContactSides<double>& s,
-                                      double f_n, double f_s_squared)
-{
-  const double overlap =
-      std::cbrt(std::pow(0.75 * f_n / (c.E_star(s.n_elastic) * std::sqrt(s.R_star)), 2.0));
-  return contact_energy(c, s, overlap, f_s_squared);
 }
 
 /// The loss is the work of the shear force (trapezoidal rule) less the growth of

@@ -62,27 +62,19 @@ contact_stiffness(const LinearMaterial& c, const ContactSides<Real>& s, const Re
 }
 
 /// Normal force under an overlap g_a S - gap > 0 [N].
-inline double normal_force(const LinearMaterial& c, const ContactSides<double>& s,
-                           double overlap)
+template <class Real>
+Real normal_force(const LinearMaterial& c, const ContactSides<Real>& s, const Real& overlap)
 {
   return contact_stiffness(c, s, overlap).k_n * overlap;
 }
 
 /// Stored by a contact of this overlap > 0 and shear force [J].
-inline double contact_energy(const LinearMaterial& c, const ContactSides<double>& s,
-                             double overlap, double f_s_squared)
+template <class Real>
+Real contact_energy(const LinearMaterial& c, const ContactSides<Real>& s,
+                    const Real& overlap, const Real& f_s_squared)
 {
   const auto k = contact_stiffness(c, s, overlap);
   return 0.5 * (k.k_n * overlap * overlap + f_s_squared / k.k_s);
-}
-
-/// The same from the normal force f_n > 0, which a wall contact keeps.
-inline double contact_energy_of_force(const LinearMaterial& c,
-                                      const ContactSides<double>& s, double f_n,
-                                      double f_s_squared)
-{
-  const auto k = contact_stiffness(c, s, 0.0);
-  return 0.5 * (f_n * f_n / k.k_n + f_s_squared / k.k_s);
 }
 
 /// @param S upscaling ratio of the pair [-]

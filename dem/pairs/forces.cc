@@ -137,21 +137,4 @@ Vec3 contact_shear_of(const Bonds& bonds, std::size_t b)
   return vec3(lane(bonds.blocks[b / n_lanes].f_s, static_cast<int>(b % n_lanes)));
 }
 
-PairEnergy pair_energy(const PairMaterials& material, const PeriodicCell& cell,
-                       const Particles& p, const Bonds& bonds, const Contacts& contacts)
-{
-  PairEnergy e;
-  const auto add_contact = [&](const Pair& pair, const Vec3& f_s) {
-    e.contacts.add(read_contact(pair, f_s, p, cell, material.contact).energy);
-  };
-  for (std::size_t b = 0; b < bonds.size(); ++b) {
-    if (!p.owns(bonds.pairs[b].i)) continue;
-    e.bonds.add(read_bond(bonds, b, p, cell, material.bond).energy);
-    add_contact(bonds.pairs[b], contact_shear_of(bonds, b));
-  }
-  for (std::size_t c = 0; c < contacts.pairs.size(); ++c)
-    if (p.owns(contacts.pairs[c].i)) add_contact(contacts.pairs[c], contacts.shear[c].f_s);
-  return e;
-}
-
 } // namespace mergel::dem

@@ -65,12 +65,4 @@ ContactReading read_contact(const Pair& pair, const Vec3& f_s, const Particles& 
 /// Shear force of the contact of a bonded pair, on i [N].
 Vec3 contact_shear_of(const Bonds& bonds, std::size_t b);
 
-/// Stored energy [J] of bonds and of all contacts, those of bonded pairs included. A pair
-/// counts on the rank that owns its first particle.
-struct PairEnergy {
-  EnergySum bonds, contacts;
-};
-PairEnergy pair_energy(const PairMaterials& material, const PeriodicCell& cell,
-                       const Particles& p, const Bonds& bonds, const Contacts& contacts);
-
 } // namespace mergel::dem

@@ -29,15 +29,15 @@ TwoRows velocities_of(const ParticleState& b)
 /// keeps its value. There is no branch on signs, because they cannot be predicted.
 class Kick {
 public:
-  Kick(Particles& p, const Motion& motion, double dt, KickWork& work)
+  Kick(const Particles& p, const Motion& motion, double dt, KickWork& work)
       : p_(p), motion_(motion), dt_(dt), has_weight_(motion.gravity != Vec3::Zero()),
         work_(work), damping_(work.damping), gravity_(work.gravity)
   {
   }
 
-  void operator()(Index i)
+  /// @param b the state of particle i
+  void operator()(ParticleState& b, Index i)
   {
-    ParticleState& b = p_.state[i];
     TwoRows load;
     std::memcpy(&load, &p_.load[i], sizeof load);
     const double I_p = inertia(b, motion_);
@@ -78,13 +78,18 @@ private:
     b.omega.setZero();
   }
 
-  Particles& p_;
+  const Particles& p_;
   const Motion motion_;
   const double dt_;
   const bool has_weight_;
   KickWork& work_;
   LaneEnergySum<TwoRows> damping_, gravity_;
 };
+
+double kinetic_energy(const ParticleState& b, const Motion& motion)
+{
+  return 0.5 * (b.m * b.v.squaredNorm() + inertia(b, motion) * b.omega.squaredNorm());
+}
 
 [[noreturn]] void refuse_motion(const Particles& p, Index i, double dt)
 {
@@ -133,7 +138,20 @@ private:
 void kick(Particles& p, const Motion& motion, double dt, KickWork& work)
 {
   Kick kick_one(p, motion, dt, work);
-  p.for_owned([&](Index i) { kick_one(i); });
+  p.for_owned([&](Index i) { kick_one(p.state[i], i); });
+}
+
+EnergySum kinetic_energy_after_kick(const Particles& p, const Motion& motion, double dt,
+                                    KickWork& work)
+{
+  Kick kick_one(p, motion, dt, work);
+  EnergySum e;
+  p.for_owned([&](Index i) {
+    ParticleState b = p.state[i];
+    kick_one(b, i);
+    e.add(kinetic_energy(b, motion));
+  });
+  return e;
 }
 
 void drift(Particles& p, double dt)
@@ -148,7 +166,7 @@ double kick_and_drift(Particles& p, const Motion& motion, double dt_kick, double
   Kick kick_one(p, motion, dt_kick, work);
   Drift drift_one(p, dt, spare);
   p.for_owned([&](Index i) {
-    kick_one(i);
+    kick_one(p.state[i], i);
     p.load[i] = Load{};
     drift_one(i);
   });
@@ -164,10 +182,7 @@ void clear_loads(Particles& p)
 EnergySum kinetic_energy_sum(const Particles& p, const Motion& motion)
 {
   EnergySum e;
-  p.for_owned([&](Index i) {
-    const ParticleState& b = p.state[i];
-    e.add(0.5 * (b.m * b.v.squaredNorm() + inertia(b, motion) * b.omega.squaredNorm()));
-  });
+  p.for_owned([&](Index i) { e.add(kinetic_energy(p.state[i], motion)); });
   return e;
 }
 

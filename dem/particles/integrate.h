@@ -56,6 +56,11 @@ void visit_sums(Work& work, Visit&& visit)
 /// @param dt mean of the steps before and after [s]
 void kick(Particles& p, const Motion& motion, double dt, KickWork& work);
 
+/// Kinetic energy of the owned particles after a kick() [J], whose work is added to `work`;
+/// the particles stay as they are.
+EnergySum kinetic_energy_after_kick(const Particles& p, const Motion& motion, double dt,
+                                    KickWork& work);
+
 /// x^{n+1} = x^n + dt v^{n+1/2}.
 /// @throws NumericalError when a particle moves more than R/20 or turns more than 0.05 rad
 ///   in the step, or when its motion is not finite

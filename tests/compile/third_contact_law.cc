@@ -28,21 +28,18 @@ ContactStiffness<Real> contact_stiffness(const ThirdContact& c, const ContactSid
 {
   return {c.E * s.r, c.E * s.r};
 }
-inline double normal_force(const ThirdContact& c, const ContactSides<double>& s,
-                           double overlap)
+template <class Real>
+Real normal_force(const ThirdContact& c, const ContactSides<Real>& s, const Real& overlap)
 {
   return c.E * s.r * overlap;
 }
-inline double contact_energy(const ThirdContact& c, const ContactSides<double>& s,
-                             double overlap, double)
+template <class Real>
+Real contact_energy(const ThirdContact& c, const ContactSides<Real>& s, const Real& overlap,
+                    const Real&)
 {
   return 0.5 * c.E * s.r * overlap * overlap;
 }
-inline double contact_energy_of_force(const ThirdContact& c, const ContactSides<double>& s,
-                                      double f_n, double)
-{
-  return 0.5 * f_n * f_n / (c.E * s.r);
-}
+
 #ifdef HAS_FUNCTIONS
 template <class Real>
 ContactStep<Real> contact_step(const ThirdContact& c, const ContactSides<Real>& s,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dem/assembly/timestep.h"
-#include "dem/pairs/forces.h"
+#include "dem/pairs/pair_sums.h"
 #include "dem/particles/integrate.h"
 
 #include <algorithm>
@@ -146,7 +146,7 @@ struct Scene {
 
   double stored() const
   {
-    const PairEnergy e = pair_energy(material, cell, p, bonds, contacts);
+    const PairSums e = sum_pairs(material, cell, p, bonds, contacts);
     return e.bonds.value() + e.contacts.value();
   }
 

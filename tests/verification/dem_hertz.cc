@@ -245,8 +245,6 @@ TEST_CASE("Hertz's stiffness and energy are the derivative and the integral of h
     CHECK((force(d + h) - force(d - h)) / (2.0 * h) ==
           Approx(contact_stiffness(law, sides, d).k_n).epsilon(1e-8));
     CHECK((stored(d + h) - stored(d - h)) / (2.0 * h) == Approx(force(d)).epsilon(1e-8));
-    CHECK(contact_energy_of_force(law, sides, force(d), 0.0) ==
-          Approx(stored(d)).epsilon(1e-12));
   }
   // A wall is rigid: half of the compliance of two equal sides.
   CHECK(contact_stiffness(law, sides_at_wall(1e-3), 1e-6).k_n ==

@@ -2,6 +2,7 @@
 
 #include "dem/assembly/energy_balance.h"
 #include "dem/error.h"
+#include "dem/pairs/pair_sums.h"
 
 #include <catch2/catch.hpp>
 
@@ -34,9 +35,9 @@ void run(WorkingAssembly& working, int steps)
 
 double stored(const dem::Assembly& assembly)
 {
-  const dem::PairEnergy e =
-      dem::pair_energy(assembly.material, assembly.cell, assembly.particles, assembly.bonds,
-                       assembly.contacts);
+  const dem::PairSums e =
+      dem::sum_pairs(assembly.material, assembly.cell, assembly.particles, assembly.bonds,
+                     assembly.contacts);
   return e.bonds.value() + e.contacts.value();
 }
 
