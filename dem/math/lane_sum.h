@@ -6,11 +6,25 @@
 
 namespace mergel::dem {
 
+/// Terms below this [quanta] are added as 64-bit integers, and so many of them stay below
+/// 2^62.
+inline constexpr double largest_lane_term = 0x1p51;
+inline constexpr int most_lane_terms = 2048;
+
+/// Rounded to 64-bit integers as llrint() does it. @pre below largest_lane_term
+template <class V>
+[[gnu::always_inline]] inline MaskOf<V> rounded(const V& scaled)
+{
+  // To this sum the last bit of the significand is worth one.
+  const V whole = V{} + 0x1.8p52;
+  return reinterpret_cast<MaskOf<V>>(scaled + whole) - reinterpret_cast<MaskOf<V>>(whole);
+}
+
 /// Collects terms, one per lane of V, for an ExactSum, and gives it the same bits as if they
 /// were added one by one: each term is rounded to the quantum by itself.
 ///
-/// Terms below 2^51 quanta are added as 64-bit integers, larger ones as ExactSum::add() does
-/// it. The sum has them after flush() and at the end.
+/// Terms from 2^51 quanta on are added as ExactSum::add() does it. The sum has all of them
+/// after flush() and at the end.
 template <class V, int exponent>
 class LaneSum {
 public:
@@ -23,14 +37,12 @@ public:
   [[gnu::always_inline]] void add(const V& terms)
   {
     const V scaled = terms * ExactSum<exponent>::scale;
-    if (any(!(magnitude(scaled) < 0x1p51))) [[unlikely]] { // or not a number
+    if (any(!(magnitude(scaled) < largest_lane_term))) [[unlikely]] { // or not a number
       add_one_by_one(terms);
       return;
     }
-    // To this sum the last bit of the significand is worth one: it rounds as llrint() does.
-    const V whole = V{} + 0x1.8p52;
-    sum_ += reinterpret_cast<Whole>(scaled + whole) - reinterpret_cast<Whole>(whole);
-    if (++n_ == most) flush();
+    sum_ += rounded(scaled);
+    if (++n_ == most_lane_terms) flush();
   }
 
   void flush()
@@ -41,8 +53,7 @@ public:
   }
 
 private:
-  using Whole = MaskOf<V>;          // 64-bit integers
-  static constexpr int most = 2048; // 2^11 terms below 2^51 stay below 2^62
+  using Whole = MaskOf<V>; // 64-bit integers
 
   [[gnu::noinline]] void add_one_by_one(V terms)
   {

@@ -142,7 +142,8 @@ std::optional<PatchContact> patch_contact(const Wall& wall,
     if (clearance > moved) continue;
     const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(t)][0])];
     const double height = (particle.x - corner).dot(wall.normals[uz(t)]);
-    if (height - particle.R >= reach) continue; // a bound of the distance to the triangle
+    // A bound of the distance to the triangle, with a margin for its round-off.
+    if (height - particle.R >= reach + 1e-6 * particle.R) continue;
     const ClosestFeature at = closest_on(wall, t, particle.x);
     const double d = distance(particle.x, at.point);
     const Feature feature{{t, at.weight}, at.on, at.point, d, reach - (d - particle.R)};

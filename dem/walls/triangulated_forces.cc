@@ -59,15 +59,12 @@ public:
   }
 
 private:
-  static constexpr int most = 2048; // 2^11 terms below 2^51 stay below 2^62
-
   void add(std::size_t node, const Row& force)
   {
-    const Row scaled = force * ForceSum::scale, whole = Row{} + 0x1.8p52;
-    if (any(!(magnitude(scaled) < 0x1p51))) return f_[node].add(vec3(force));
-    sums_[node] +=
-        reinterpret_cast<RowBits>(scaled + whole) - reinterpret_cast<RowBits>(whole);
-    if (++n_ == most) flush();
+    const Row scaled = force * ForceSum::scale;
+    if (any(!(magnitude(scaled) < largest_lane_term))) return f_[node].add(vec3(force));
+    sums_[node] += rounded(scaled);
+    if (++n_ == most_lane_terms) flush();
   }
 
   void flush()
@@ -219,7 +216,8 @@ private:
         triples([&](int l) { return row_of(wall.contacts[contact_[l]].f_s); });
     const WallContactStep<Lanes> now = wall_contact_step(
         law_, b, WallPoint<Lanes>{r * (1.0 / distance), gap, face.x, v}, f_s, step_.dt);
-    const unsigned closed = bits_of(is_closed), open_faces = bits_of(is_face & !overlaps);
+    const unsigned closed = bits_of(is_closed),
+                   open_faces = bits_of(is_face & (overlap <= Lanes{}));
     slip_.add(select(lanes_of(closed & ((1u << count) - 1u)), now.slip_loss, Lanes{}));
 
     const LaneRows F(now.F), M(now.M), weight(w), x(face.x), v_rows(v), f_s_rows(now.f_s);
@@ -232,7 +230,7 @@ private:
                   v_rows.of[l]);
       } else if (open_faces >> l & 1u) {
         open(contact_[l]);
-      } else { // at an edge, or on the wrong side
+      } else { // at an edge, on the wrong side, or not a number
         add_one(contact_[l]);
       }
     }

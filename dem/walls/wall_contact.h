@@ -105,7 +105,7 @@ Vec3 add_wall_contact(const Law& law, const ContactGeometry& geometry, double dt
                       PairLosses& losses)
 {
   const double overlap = activation_gap(law) * particle.S - geometry.gap;
-  if (!(overlap > 0.0)) {
+  if (overlap <= 0.0) { // one that is not a number is found by the exact sums
     open_contact(law, particle.R, history, losses);
     return Vec3::Zero();
   }

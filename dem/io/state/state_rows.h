@@ -24,9 +24,9 @@ inline Vec3 vec_at(const std::vector<double>& from, std::size_t k)
 }
 
 /// True for a history that has a bit other than zero.
-inline bool is_nonzero(const Vec3& f, double energy)
+inline bool is_nonzero(const Vec3& f, double overlap)
 {
-  const std::array<double, 4> all{f.x(), f.y(), f.z(), energy}, nothing{};
+  const std::array<double, 4> all{f.x(), f.y(), f.z(), overlap}, nothing{};
   return std::memcmp(all.data(), nothing.data(), sizeof all) != 0;
 }
 
