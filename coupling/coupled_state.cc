@@ -61,7 +61,9 @@ CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>
 
   dem::distribute(assembly, comm);
   dem::rebuild_lists(assembly);
+  const double dt_then = dt;
   dt = step_spec.safety * stable_step.limit; // the restart may have another safety
+  if (dt != dt_then) choose_subcycles();
 }
 
 } // namespace mergel::coupling

@@ -105,12 +105,19 @@ std::vector<double> CoupledSystem::stiffness_at(const Member& s,
 
 void CoupledSystem::choose_subcycles()
 {
-  if (structures.empty() || largest_subcycle == 1) return;
+  if (std::none_of(structures.begin(), structures.end(),
+                   [&](const Member& s) { return moves(s); }))
+    return;
+  // Impulses at less than half of the shortest period: no motion can keep pace with them.
+  const double longest = dem::pi / std::sqrt(stable_step.omega2);
+  // While it settles all has about the same frequency, and its ratio is looked at in any step.
+  const bool is_settled = settling.phase == Settling::Phase::done;
   const StructureSystem system = structure_system();
   const dem::Springs springs = dem::present_springs(assembly, dt, &system);
   for (Member& s : structures)
     if (moves(s))
-      s.structure->choose_subcycle(dt, stiffness_at(s, springs), largest_subcycle);
+      s.structure->choose_subcycle(dt, stiffness_at(s, springs), longest,
+                                   is_settled ? largest_subcycle : 1);
 }
 
 void CoupledSystem::equalise_frequencies()

@@ -145,11 +145,11 @@ void equilibrate(CoupledSystem& coupled, const EquilibriumSpec& spec,
   if (settling.phase == Settling::Phase::free) {
     if (has_moving_structure(coupled))
       relax(coupled, {"settling in free walls", spec, report, after_step});
+    settling = {Settling::Phase::done, 0};
     coupled.restore_masses();
     dem::Assembly& assembly = coupled.assembly;
     assembly.partition.gather_motion(assembly.particles, assembly.comm);
     for (const dem::ParticleState& b : assembly.particles.state) coupled.x_0.push_back(b.x);
-    settling = {Settling::Phase::done, 0};
   }
 }
 

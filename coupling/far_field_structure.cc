@@ -125,9 +125,10 @@ void FarFieldStructure::step(double dt, const Nodal& f)
 }
 
 void FarFieldStructure::choose_subcycle(double dt, std::span<const double> stiffness,
-                                        std::size_t most)
+                                        double longest, std::size_t most)
 {
-  subcycle_limit_ = largest_window / (far_field_.largest_frequency(stiffness) * dt);
+  const double window = largest_window / far_field_.largest_frequency(stiffness);
+  subcycle_limit_ = std::min(window, longest) / dt;
   far_field_.set_subcycle(static_cast<std::size_t>(
       std::clamp(std::floor(subcycle_limit_), 1.0, static_cast<double>(most))));
 }

@@ -41,7 +41,7 @@ public:
     far_field_.equalise_frequencies(omega2, stiffness);
   }
   void restore_masses() override { far_field_.restore_masses(); }
-  void choose_subcycle(double dt, std::span<const double> stiffness,
+  void choose_subcycle(double dt, std::span<const double> stiffness, double longest,
                        std::size_t most) override;
   Subcycle subcycle() const override
   {

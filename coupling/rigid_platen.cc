@@ -186,6 +186,13 @@ Nodal RigidPlaten::rigid_positions() const
   return x;
 }
 
+void RigidPlaten::restore_masses()
+{
+  if (is_driven_by_force()) now_.v = 0.0;
+  now_.omega.setZero();
+  now_.v_nodes.assign(now_.x_nodes.size(), now_.v * spec_.mesh.axis);
+}
+
 std::optional<Nodal> RigidPlaten::solve_static(const Nodal&)
 {
   return std::nullopt;

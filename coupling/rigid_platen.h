@@ -78,8 +78,8 @@ public:
   /// None: a platen alone has no stiffness.
   std::optional<Nodal> solve_static(const Nodal& f) override;
   void equalise_frequencies(double, std::span<const double>) override {}
-  void restore_masses() override {}
-  void choose_subcycle(double, std::span<const double>, std::size_t) override {}
+  void restore_masses() override; ///< it kept its mass
+  void choose_subcycle(double, std::span<const double>, double, std::size_t) override {}
   Subcycle subcycle() const override { return {}; } // it has no forces of its own
   double damping() const override { return spec_.damping; }
   std::size_t n_amplitudes() const override;

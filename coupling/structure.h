@@ -93,12 +93,12 @@ public:
   /// How a structure takes its own forces: by impulse, at every n-th step.
   struct Subcycle {
     std::size_t n = 1;
-    double limit = 1.0; ///< of n, by its largest frequency [-]
+    double limit = 1.0; ///< of n, by the frequencies [-]
   };
-  /// Choose the largest n up to `most` with n dt <= 0.7 over its largest frequency, springs to
-  /// the particles included. It is part of its state.
+  /// Choose the largest n up to `most` with n dt below `longest` [s] and below 0.7 over its
+  /// largest frequency, springs to the particles included. It is part of its state.
   /// @param stiffness of what is coupled to each interface node [N/m]
-  virtual void choose_subcycle(double dt, std::span<const double> stiffness,
+  virtual void choose_subcycle(double dt, std::span<const double> stiffness, double longest,
                                std::size_t most) = 0;
   virtual Subcycle subcycle() const = 0;
 

@@ -32,7 +32,7 @@ struct CoupledCase : SpecimenKeys {
   dem::ContactLaw interface;         ///< set by complete()
   InterfaceBond interface_bond = InterfaceBond::bonded;
   double collar_height = unset; ///< [m]
-  int largest_subcycle = 4; ///< of the far field: steps from product to product, at most
+  int largest_subcycle = 4; ///< of the far field: steps from kick to kick by its own forces
 
   // Motion
   double gravity = dem::standard_gravity; ///< [m/s^2], downwards

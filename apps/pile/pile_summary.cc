@@ -78,24 +78,26 @@ void add_figures(Summary& s, const Installation& run,
   s.count("far-field cells [-]", far_field_of(coupled).n_cells());
   s.count("steps [-]", coupled.n_steps);
   add_step(s, coupled.stable_step, coupled.dt);
-  const auto subcycle = coupled.structures.front().structure->subcycle();
-  s.count("steps from kick to kick by the far field's own forces [-]", subcycle.n);
-  s.number("limit of these steps [-]", subcycle.limit);
+  const coupling::Structure& far_field = *coupled.structures.front().structure;
+  if (far_field.moves()) {
+    s.count("steps from kick to kick by the far field's own forces [-]",
+            far_field.subcycle().n);
+    s.number("limit of these steps [-]", far_field.subcycle().limit);
+  }
   add_mass_scaling(s, coupled.assembly.particles);
   s.number("wall-clock time [s]", seconds);
 }
 
-} // namespace
-
-namespace {
-
-/// "step", "3rd step (limit 3.4)".
-std::string ordinal(const coupling::Structure::Subcycle& subcycle)
+/// "; the far field's own forces act at every 2nd step (limit 2.04)".
+std::string subcycle_text(const coupling::Structure& far_field)
 {
+  if (!far_field.moves()) return "";
+  const auto subcycle = far_field.subcycle();
   constexpr std::array<const char*, 11> ordinals{"",    "",    "2nd", "3rd", "4th", "5th",
                                                  "6th", "7th", "8th", "9th", "10th"};
   std::ostringstream text;
   text.precision(3);
+  text << "; the far field's own forces act at every ";
   if (subcycle.n > 1) text << ordinals.at(subcycle.n) << ' ';
   text << "step (limit " << subcycle.limit << ')';
   return text.str();
@@ -132,8 +134,7 @@ void summarise(Summary& summary, const PileCase& c, const Installation& run,
       << run.worst_interface().power << " (power)\n"
       << "time step " << coupled.dt << " s, ruled by "
       << dem::what_rules(coupled.stable_step)
-      << "; the far field's own forces act at every "
-      << ordinal(coupled.structures.front().structure->subcycle()) << '\n'
+      << subcycle_text(*coupled.structures.front().structure) << '\n'
       << time_by_parts(coupled, work) << "whole run " << duration_text(work.seconds);
 }
 

@@ -1,5 +1,6 @@
 #include "fem/solid/leapfrog.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -67,7 +68,8 @@ struct Leapfrog::Powers {
 };
 
 /// The velocity of a node after its kick: by the interface force over dt_kick, by its own
-/// forces over window_kick. Damping sees all forces, and acts whenever the node is kicked.
+/// forces over window_kick. Damping sees all forces, and acts with the latter. The velocity of
+/// a loaded node saws in a window: the sign of its motion is that of the mean.
 NodeLanes Leapfrog::kicked(Eigen::Index a, double dt_kick, double window_kick,
                            Powers& sum) const
 {
@@ -77,17 +79,17 @@ NodeLanes Leapfrog::kicked(Eigen::Index a, double dt_kick, double window_kick,
                   f_initial = load(solid_.f_initial, a), v = load(now_.v, a);
   const NodeLanes own = f_gravity - f_initial - load(now_.Ku, a), f_a = f_interface + own;
   const NodeLanes drag = alpha_ * (f_a < 0.0 ? -f_a : f_a);
-  const NodeLanes f_damping = v > 0.0 ? drag : (v < 0.0 ? -drag : zero);
-  const double dt_damping = is_loaded_[static_cast<std::size_t>(a)] ? dt_kick : window_kick;
-  const NodeLanes impulse =
-      f_interface * dt_kick + own * window_kick - f_damping * dt_damping;
+  const double saw = is_loaded_[static_cast<std::size_t>(a)] ? window_kick - dt_kick : 0.0;
+  const NodeLanes motion = v + own * (0.5 * saw * inverse_m_[a]);
+  const NodeLanes f_damping = motion > 0.0 ? drag : (motion < 0.0 ? -drag : zero);
+  const NodeLanes impulse = f_interface * dt_kick + (own - f_damping) * window_kick;
   const NodeLanes v_new = v + impulse * inverse_m_[a];
 
   const NodeLanes v_mean = 0.5 * (v + v_new);
   sum.interface += f_interface * v_mean * dt_kick;
   sum.gravity += f_gravity * v_mean * window_kick;
   sum.initial -= f_initial * v_mean * window_kick;
-  sum.damping += f_damping * v_mean * dt_damping;
+  sum.damping += f_damping * v_mean * window_kick;
   return v_new;
 }
 
@@ -106,19 +108,21 @@ void Leapfrog::kick_all(double dt_kick, double window_kick)
 
 void Leapfrog::kick_loaded(double dt_kick)
 {
-  Powers powers;
-  for (const auto a : loaded_) {
-    store(now_.v, a, kicked(a, dt_kick, 0.0, powers));
-    now_.v.col(a).head<3>() = (solid_.P[a] * at(now_.v, a)).array();
+  NodeLanes work = {0.0, 0.0, 0.0, 0.0};
+  for (const auto a : loaded_) { // forces and velocities are in the range of P
+    const NodeLanes f = load(now_.f_interface, a), v = load(now_.v, a);
+    const NodeLanes v_new = v + f * (dt_kick * inverse_m_[a]);
+    work += f * (0.5 * dt_kick) * (v + v_new);
+    store(now_.v, a, v_new);
   }
-  powers.add_to(now_.energy);
+  now_.energy.interface_work += sum(work);
 }
 
 /// Loaded nodes at every step, all others at the end of the window.
 void Leapfrog::drift(double dt)
 {
   const bool is_end = now_.n_left == 0;
-  if (now_.subcycle == 1 && now_.since == dt) { // the window is this step
+  if (is_end && now_.since == dt) { // the window is this step
     now_.u += dt * now_.v;
     return;
   }
@@ -139,9 +143,14 @@ void Leapfrog::step(double dt, std::span<const Vec3> f)
     product_.finish();
     is_product_begun_ = false;
     std::swap(now_.Ku, next_Ku_);
-    const double window = dt * static_cast<double>(now_.subcycle);
-    kick_all(dt_kick, now_.since > 0.0 ? 0.5 * (now_.since + window) : window);
-    now_.n_left = now_.subcycle;
+    // From rest a window of one step: the saw of the next ones is then even about rest.
+    const std::size_t s = now_.since > 0.0 ? now_.subcycle : 1;
+    const double window = dt * static_cast<double>(s);
+    // What is left of the last window, which may have become another than was planned, and
+    // half of the next.
+    kick_all(dt_kick,
+             now_.since > 0.0 ? now_.since - 0.5 * now_.window + 0.5 * window : window);
+    now_.n_left = s;
     now_.window = window;
     now_.since = 0.0;
     now_.energy.strain = 0.5 * (dot(now_.Ku, now_.u) + window * dot(now_.Ku, now_.v));
@@ -198,6 +207,8 @@ void Leapfrog::restore(NodalMotion state)
           "; restart with the mesh of the first run");
   if (state.m.size() != n || !(state.m > 0.0).all())
     throw std::invalid_argument("state of the far field: a node without mass");
+  if (state.subcycle < 1 || state.n_left > std::max<std::size_t>(state.subcycle, 64))
+    throw std::invalid_argument("state of the far field: no such step of a window");
   begin_again();
   now_ = std::move(state);
   inverse_m_ = now_.m.inverse();

@@ -29,14 +29,14 @@ struct Energies {
 
 /// State that a restart needs to continue with the same bits.
 struct NodalMotion {
-  NodalField u;             ///< displacement u^{n+1} [m]
-  NodalField v;             ///< velocity v^{n+1/2} [m/s]
-  NodalField Ku;            ///< internal force at the last kick, u^n [N]
-  NodalField f_interface;   ///< P times the interface forces of the last kick [N]
-  Eigen::ArrayXd m;         ///< mass with which each node moves [kg], > 0
-  double dt = 0.0;          ///< last time step [s]; 0 before the first
-  double window = 0.0;      ///< time over which the last kick by -K u was meant to act [s]
-  double since = 0.0;       ///< time since that kick [s]
+  NodalField u;           ///< displacement u^{n+1} [m]
+  NodalField v;           ///< velocity v^{n+1/2} [m/s]
+  NodalField Ku;          ///< internal force at the start of the window, u^n [N]
+  NodalField f_interface; ///< P times the interface forces of the last step [N]
+  Eigen::ArrayXd m;       ///< mass with which each node moves [kg], > 0
+  double dt = 0.0;        ///< last time step [s]; 0 before the first
+  double window = 0.0; ///< planned at the last kick by -K u [s]; half of it has been given
+  double since = 0.0;  ///< time since that kick [s]
   std::size_t n_left = 0;   ///< steps until the next one
   std::size_t subcycle = 1; ///< steps of a window that begins now
   Energies energy;
@@ -53,7 +53,8 @@ struct NodalMotion {
 /// Subcycling by impulse: f_gravity - f_initial - K u kicks at every s-th step, for all s of
 /// them; the interface forces kick their nodes at every step, and these drift at every step
 /// (Tuckerman, Berne and Martyna 1992, Reversible multiple time scale molecular dynamics,
-/// J. Chem. Phys. 97, 1990). All other nodes drift once in a window.
+/// J. Chem. Phys. 97, 1990). All other nodes drift once in a window. The
+/// first window after rest has one step.
 class Leapfrog {
 public:
   /// @param alpha local damping [-], 0 <= alpha < 1
@@ -85,7 +86,7 @@ public:
   /// Energies after the last step.
   Energies energies() const;
 
-  /// Unbalanced-force ratio [-] at the last kick:
+  /// Unbalanced-force ratio [-] at the last step, with -K u of the start of its window:
   ///   sum_a |f_a| / sum_a (|f_interface| + |f_gravity| + |f_initial| + |K u|)_a
   /// over all nodes. Forces are projected with P, so reactions of supports do not count;
   /// f_a is taken before damping. 0 without any force.
@@ -98,18 +99,18 @@ private:
   void kick_loaded(double dt_kick);
   void drift(double dt);
 
-  /// Sums over the nodes of force times mean velocity [W].
+  /// Sums over the nodes of force times mean motion [J].
   struct Powers;
   NodeLanes kicked(Eigen::Index a, double dt_kick, double window_kick, Powers& sum) const;
 
   const DiscreteSolid& solid_;
-  SharedProduct product_;
+  NodalField next_Ku_;    // of the window that begins next; outlives the product
+  SharedProduct product_; // may still receive next_Ku_ when it ends
   double alpha_;
   std::vector<std::uint32_t> loaded_;
   Eigen::ArrayXd inverse_m_; // [1/kg]
   std::vector<char> is_loaded_;
   NodalMotion now_;
-  NodalField next_Ku_;            // of the window that begins next
   bool is_product_begun_ = false; // next_Ku_ is on its way
 };
 
