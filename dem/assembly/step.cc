@@ -122,7 +122,6 @@ void add_forces_to_cleared(Assembly& assembly, double dt)
   };
   assembly.ghosts.update(p, assembly.comm);
   lap(assembly.times.exchange);
-  for (Wall& w : assembly.walls) update_normals(w);
   if (lists_are_stale(assembly))
     rebuild_lists(assembly, dt); // walls are the same on all ranks
   if (assembly.list.is_narrowing_stale(assembly.contacts))

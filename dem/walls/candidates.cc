@@ -69,7 +69,7 @@ bool is_reported(const Wall& wall, int t, const ClosestFeature& at, const Vec3& 
     if (other < t) return false;
     const Vec3 e = wall.x[uz(tri[uz((at.which + 1) % 3)])] - wall.x[uz(tri[uz(at.which)])];
     // The other triangle has the edge in the opposite direction: e x normal points into it.
-    return (c - at.point).dot(e.cross(wall.normals[uz(other)])) <= 0.0;
+    return (c - at.point).dot(e.cross(normal(wall, other))) <= 0.0;
   }
   const int node = tri[uz(at.which)];
   for (const int other : topo.around[uz(node)]) {
@@ -111,7 +111,7 @@ double distance_lead_over_valleys(const Wall& wall, int t, const Vec3& c, double
     if (other < 0) continue;
     const Vec3 &a = wall.x[uz(tri[uz(e)])], &b = wall.x[uz(tri[uz((e + 1) % 3)])];
     const Vec3 ab = b - a;
-    const bool is_valley = ab.dot(wall.normals[uz(t)].cross(wall.normals[uz(other)])) < 0.0;
+    const bool is_valley = ab.dot(normal(wall, t).cross(normal(wall, other))) < 0.0;
     if (!is_valley) continue;
     const double s = std::clamp((c - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
     lead = std::min(lead, (c - a - s * ab).norm() - distance);
@@ -141,7 +141,7 @@ std::optional<PatchContact> patch_contact(const Wall& wall,
   for (const auto& [t, clearance] : wall.near_triangles(candidate)) {
     if (clearance > moved) continue;
     const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(t)][0])];
-    const double height = (particle.x - corner).dot(wall.normals[uz(t)]);
+    const double height = (particle.x - corner).dot(normal(wall, t));
     // A bound of the distance to the triangle, with a margin for its round-off.
     if (height - particle.R >= reach + 1e-6 * particle.R) continue;
     const ClosestFeature at = closest_on(wall, t, particle.x);
@@ -217,7 +217,7 @@ std::optional<NearestPoint> nearest_point(const Wall& wall,
   std::optional<NearestPoint> nearest;
   for (const auto& near : wall.near_triangles(candidate)) {
     const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(near.triangle)][0])];
-    if ((x - corner).dot(wall.normals[uz(near.triangle)]) > reach) continue; // of its plane
+    if ((x - corner).dot(normal(wall, near.triangle)) > reach) continue; // of its plane
     const ClosestFeature at = closest_on(wall, near.triangle, x);
     const double d = (x - at.point).norm();
     if (d > reach || (nearest && d >= nearest->distance)) continue;

@@ -81,12 +81,9 @@ WallTopology make_topology(const std::vector<Vec3>& x, std::vector<Triangle> tri
   return topo;
 }
 
-void update_normals(Wall& wall)
+Vec3 normal(const Wall& wall, int t)
 {
-  const auto& triangles = wall.topology.triangles;
-  wall.normals.resize(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    wall.normals[t] = area_vector(wall.x, triangles[t]).normalized();
+  return area_vector(wall.x, wall.topology.triangles[uz(t)]).normalized();
 }
 
 } // namespace mergel::dem

@@ -11,7 +11,6 @@ Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
   wall.v.assign(x.size(), Vec3::Zero());
   wall.f.resize(x.size());
   wall.material = material;
-  update_normals(wall);
   return wall;
 }
 

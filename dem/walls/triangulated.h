@@ -111,9 +111,8 @@ struct Wall {
   ContactLaw material;
   bool bonds_yield = false; ///< bonds follow the bond law; otherwise they stay elastic
   std::vector<WallContactForce>
-      contact_forces;        ///< of this rank's contacts and bonds in the last step
-  std::vector<Vec3> normals; ///< unit, by triangle; see update_normals()
-  EnergySum work; ///< on the particles by the motion of the nodes, of all ranks [J]
+      contact_forces; ///< of this rank's contacts and bonds in the last step
+  EnergySum work;     ///< on the particles by the motion of the nodes, of all ranks [J]
 
   std::span<const NearTriangle> near_triangles(const ListedCandidate& c) const
   {
@@ -162,8 +161,8 @@ std::optional<NearestPoint> nearest_point(const Wall& wall,
                                           const ListedCandidate& candidate, const Vec3& x,
                                           double reach);
 
-/// Call it after x changed and before patch_contact() or add_wall_forces().
-void update_normals(Wall& wall);
+/// Unit normal of a triangle, to the side of the particles.
+Vec3 normal(const Wall& wall, int t);
 
 /// Find the candidates: particles whose gap to a triangle is below (g_a + skin) S plus their
 /// extra reach (VerletList). They hold until a particle or a node has moved by half of

@@ -66,7 +66,7 @@ dem::Assembly assembly_at(const dem::Wall& wall)
     dem::ParticleState b;
     b.R = R;
     b.m = dem::sphere_mass(R, 2556.0);
-    b.x = c + (R - overlap) * wall.normals[t];
+    b.x = c + (R - overlap) * normal(wall, static_cast<int>(t));
     b.v = Vec3(u(0) - 0.5, u(1) - 0.5, u(2) - 0.5);
     b.omega = 1e3 * Vec3(u(3) - 0.5, u(4) - 0.5, u(5) - 0.5);
     assembly.particles.add(b);
@@ -158,8 +158,9 @@ TEST_CASE("the collar follows the surface nodes and keeps the normals of the sid
        ++t) {
     const Vec3& corner =
         with.wall.x[static_cast<std::size_t>(with.wall.topology.triangles[t][0])];
-    CHECK(with.wall.normals[t].z() == Approx(0.0).margin(1e-12));
-    CHECK(with.wall.normals[t].dot(Vec3(corner.x(), corner.y(), 0.0)) < 0.0); // inwards
+    CHECK(normal(with.wall, static_cast<int>(t)).z() == Approx(0.0).margin(1e-12));
+    CHECK(normal(with.wall, static_cast<int>(t)).dot(Vec3(corner.x(), corner.y(), 0.0)) <
+          0.0); // inwards
   }
   coupling::Nodal v(mesh.x.size(), Vec3(1.0, 2.0, 3.0)), down;
   with.transfer.to_wall(v, down);

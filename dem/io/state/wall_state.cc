@@ -114,7 +114,6 @@ void load_wall(const State& state, const std::string& name, std::size_t n, Wall&
     wall.x[k] = vec_at(nodes, 6 * k);
     wall.v[k] = vec_at(nodes, 6 * k + 3);
   }
-  update_normals(wall);
   wall.contacts = load_wall_contacts(state, name, n);
   wall.listed.assign(wall.contacts.size(), {}); // rebuilt with the list
   wall.contact_forces.clear();

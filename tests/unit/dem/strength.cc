@@ -228,7 +228,6 @@ TEST_CASE("Bonds to a wall and to the mirror image take the factor of their part
     wall.x[k].z() -= u;
   }
   p.state[0].v.setZero();
-  update_normals(wall);
   wall.bonds_yield = true;
   add_wall_forces(wall, {law, {}}, dt, p, losses);
   CHECK(-p.load[0].f.z() / wall.bonds[0].state.intact ==

@@ -80,7 +80,6 @@ struct AtWall {
   {
     for (ParticleState& b : p.state) b.x += dt * b.v;
     for (std::size_t k = 0; k < wall.x.size(); ++k) wall.x[k] += dt * wall.v[k];
-    update_normals(wall);
     clear_loads(p);
     add_wall_forces(wall, material, dt, p, losses);
   }

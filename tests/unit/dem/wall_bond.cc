@@ -33,7 +33,6 @@ struct Bonded {
         wall.v[n] = u / (dt * steps);
         wall.x[n] += u / steps;
       }
-      update_normals(wall);
       clear_loads(p);
       wall.bonds_yield = yields;
       add_wall_forces(wall, {bond, {}}, dt, p, losses);

@@ -93,7 +93,7 @@ TEST_CASE("A particle exactly over an edge or a node of an inclined wall has one
         triangles.push_back({q, q + 4, q + 1});
       }
     Wall wall = make_wall(x, triangles, law);
-    const Vec3 n = wall.normals[0];
+    const Vec3 n = normal(wall, 0);
     const bool at_node = trial % 3 == 0;
     const Vec3 foot = at_node ? x[4] : Vec3(x[4] + u(random) * (x[8] - x[4]));
     const double f = force_at(wall, foot + 0.98e-3 * n).f.norm() / (law.E * pi * R * 4e-5);
@@ -131,7 +131,7 @@ TEST_CASE("A fold beyond 30 degrees separates patches and each side acts on its 
   // In a right-angled valley the particle touches both sides.
   Wall wall = folded_square(pi / 2.0);
   REQUIRE(wall.topology.n_patches == 2);
-  const Vec3 n_0 = wall.normals[0], n_1 = wall.normals[1];
+  const Vec3 n_0 = normal(wall, 0), n_1 = normal(wall, 1);
   REQUIRE(n_0.dot(n_1) == Approx(0.0).margin(1e-12));
   const Vec3 x = Vec3(5e-3, 5e-3, 0.0) + 0.97e-3 * n_0 + 0.99e-3 * n_1;
   const Vec3 f = force_at(wall, x).f;
