@@ -77,13 +77,16 @@ bool ElementPictures::update(bool stage_ends)
 
 void ElementPictures::take_picture()
 {
-  const dem::Assembly assembly = dem::gather(run_.assembly());
-  if (x_0_.empty())
-    for (const dem::ParticleState& b : assembly.particles.state) x_0_.push_back(b.x);
-  size_last_ = assembly.cell.size;
+  dem::Assembly& mine = run_.assembly();
+  if (x_0_.empty()) {
+    mine.partition.gather_motion(mine.particles, mine.comm);
+    for (const dem::ParticleState& b : mine.particles.state) x_0_.push_back(b.x);
+  }
+  size_last_ = mine.cell.size;
+  const auto assembly = dem::gather_on_first_rank(mine);
   on_first_rank([&] {
-    dem::write_particles(frames_->file(0), assembly, x_0_, {stress_field(assembly)});
-    dem::write_bonds(frames_->file(1), assembly);
+    dem::write_particles(frames_->file(0), *assembly, x_0_, {stress_field(*assembly)});
+    dem::write_bonds(frames_->file(1), *assembly);
     frames_->add(run_.state().time);
   });
 }

@@ -113,8 +113,8 @@ double Installation::travelled() const
 
 void Installation::frame()
 {
-  const dem::Assembly assembly = dem::gather(coupled_.assembly);
-  on_first_rank([&] { output_->frame(time_, assembly, coupled_); });
+  const auto assembly = dem::gather_on_first_rank(coupled_.assembly);
+  on_first_rank([&] { output_->frame(time_, *assembly, coupled_); });
 }
 
 std::string Installation::now() const

@@ -46,6 +46,15 @@ public:
     return all;
   }
 
+  /// The same on the first rank, nothing on the others; collective.
+  template <class Record>
+  std::vector<Record> gather_on_first(const std::vector<Record>& mine) const
+  {
+    std::vector<std::vector<Record>> to(static_cast<std::size_t>(n_ranks_));
+    to.front() = mine;
+    return exchange(to);
+  }
+
   /// What all ranks have for this one, in the order of the ranks; collective.
   /// @param to for each rank the records that it shall get
   template <class Record>
