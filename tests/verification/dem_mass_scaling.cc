@@ -14,16 +14,15 @@ namespace {
 
 constexpr double R = 1e-3;
 
-/// A column of touching bonded particles that hangs from a wall at z = 0; the fourth is
-/// small, and rules the step.
-Assembly hanging_column()
+/// A column of touching bonded particles of these radii that hangs from a wall at z = 0.
+Assembly hanging_column(const std::vector<double>& radii)
 {
   Scene s;
   s.material.bond = unbreakable_bond();
   std::vector<Pair> pairs;
   double z = 0.0;
-  for (Index k = 0; k < 8; ++k) {
-    const double r = k == 3 ? 0.6 * R : R;
+  for (Index k = 0; k < radii.size(); ++k) {
+    const double r = radii[k];
     s.p.add(sphere({0, 0, z - r}, r));
     z -= 2.0 * r;
     if (k > 0) pairs.push_back({k - 1, k, {}});
@@ -39,6 +38,12 @@ Assembly hanging_column()
   REQUIRE(a.walls.front().bonds.size() == 1);
   add_forces(a, 0.0);
   return a;
+}
+
+/// The fourth particle is small, and rules the step.
+Assembly hanging_column()
+{
+  return hanging_column({R, R, R, 0.6 * R, R, R, R, R});
 }
 
 double largest_bound(const Assembly& a)
@@ -153,25 +158,9 @@ TEST_CASE(
     "[verification][dem]")
 {
   // Radii from 1 mm at the top to 0.03 mm: true masses differ by a factor of 40,000.
-  Scene s;
-  s.material.bond = unbreakable_bond();
-  std::vector<Pair> pairs;
-  double z = 0.0;
-  for (Index k = 0; k < 20; ++k) {
-    const double r = R * std::pow(0.03, k / 19.0);
-    s.p.add(sphere({0, 0, z - r}, r));
-    z -= 2.0 * r;
-    if (k > 0) pairs.push_back({k - 1, k, {}});
-  }
-  s.bond(pairs);
-  s.motion.gravity = {0.0, 0.0, -9.81};
-  s.motion.damping = 0.7;
-  Assembly column = assembly_of(s);
-  const double L = 0.1; // [m]
-  column.walls.push_back(make_wall({{-L, -L, 0}, {0, 2.0 * L, 0}, {L, -L, 0}}, {{0, 1, 2}},
-                                   column.material.contact));
-  bond_to_wall(column.walls.front(), column.particles, 1e-6);
-  add_forces(column, 0.0);
+  std::vector<double> radii;
+  for (int k = 0; k < 20; ++k) radii.push_back(R * std::pow(0.03, k / 19.0));
+  const Assembly column = hanging_column(radii);
 
   const auto steps_to_rest = [](Assembly& a) {
     double dt = stable_time_step(a, StepSpec{});
