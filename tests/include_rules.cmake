@@ -56,7 +56,8 @@ set(dem_floors
 set(fem_floors
     "solid"
     "solver: solid"
-    "far_field: solid solver")
+    "far_field: solid solver"
+    "membrane")
 set(apps_floors
     "case"
     "run: case"

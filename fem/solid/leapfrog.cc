@@ -166,14 +166,11 @@ void Leapfrog::step(double dt, std::span<const Vec3> f)
   is_product_begun_ = true;
 }
 
-/// From rest, with a window and a product of its own.
+/// What moves on starts a window, with its own product.
 void Leapfrog::begin_again()
 {
   product_.finish();
   is_product_begun_ = false;
-  now_.v.setZero();
-  now_.dt = now_.window = now_.since = 0.0;
-  now_.n_left = 0;
 }
 
 void Leapfrog::rest_at(const NodalField& u, std::span<const Vec3> f)
@@ -181,7 +178,10 @@ void Leapfrog::rest_at(const NodalField& u, std::span<const Vec3> f)
   load_interface_forces(f);
   begin_again();
   now_.u = u;
+  now_.v.setZero();
   solid_.K.multiply(now_.u, now_.Ku);
+  now_.dt = now_.window = now_.since = 0.0;
+  now_.n_left = 0;
   now_.energy = {};
   now_.energy.strain = 0.5 * dot(now_.Ku, now_.u);
 }
@@ -191,6 +191,9 @@ void Leapfrog::set_masses(const Eigen::ArrayXd& m)
   begin_again();
   now_.m = m;
   inverse_m_ = m.inverse();
+  now_.v.setZero();
+  now_.dt = now_.window = now_.since = 0.0;
+  now_.n_left = 0;
 }
 
 void Leapfrog::restore(NodalMotion state)

@@ -1,0 +1,104 @@
+/// A membrane of triangles: its forces, masses, stiffness and fields (fem/README.md,
+/// Membrane).
+#pragma once
+
+#include "fem/membrane/membrane_element.h"
+#include "fem/membrane/membrane_mesh.h"
+
+#include <mpi.h>
+
+namespace mergel::fem {
+
+/// Incompressible neo-Hookean, Poisson's ratio 1/2.
+struct MembraneMaterial {
+  double E = 0.0;         ///< Young's modulus at small strain [Pa], > 0
+  double thickness = 0.0; ///< at rest [m], > 0
+  double rho = 0.0;       ///< [kg/m^3], > 0
+  Compression compression = Compression::wrinkles;
+
+  double mu() const { return E / 3.0; } ///< shear modulus [Pa]
+  /// @throws std::invalid_argument naming the value and what is allowed
+  void check() const;
+};
+
+/// Fields of the triangles.
+struct MembraneFields {
+  std::vector<double> stretch_1, stretch_2; ///< principal, the larger first [-]
+  std::vector<double> stress_1, stress_2;   ///< principal Cauchy stress [Pa]
+  std::vector<double> state;                ///< 0 slack, 1 wrinkled, 2 taut [-]
+  std::size_t n_wrinkled = 0, n_slack = 0;
+};
+
+/// Integrals of the Kirchhoff stress F S F^T over a membrane about the axis z [J]: N_z and
+/// N_theta, the tensions of a line [N/m], times its area.
+struct MembraneTensions {
+  double axial = 0.0, hoop = 0.0;
+};
+
+/// A surface that two polygons close: those of its first and last row of nodes.
+struct EnclosedVolume {
+  double V = 0.0;                                ///< [m^3]
+  Vec3 area[2] = {Vec3::Zero(), Vec3::Zero()};   ///< of the polygons, outwards [m^2]
+  Vec3 centre[2] = {Vec3::Zero(), Vec3::Zero()}; ///< mean of their nodes [m]
+};
+
+class Membrane {
+public:
+  /// @param comm ranks that share the triangles; MPI_COMM_NULL: one rank, without MPI
+  /// @throws std::invalid_argument as material.check()
+  Membrane(const dealii::Triangulation<2, 3>& mesh, const MembraneMaterial& material,
+           MPI_Comm comm = MPI_COMM_NULL);
+  Membrane(const Membrane&) = delete;
+  Membrane& operator=(const Membrane&) = delete;
+  Membrane(Membrane&&) = default;
+  ~Membrane() { finish(); }
+
+  const SurfaceMesh& rest() const { return rest_; }
+  const MembraneMaterial& material() const { return material_; }
+  Eigen::Index n_nodes() const { return static_cast<Eigen::Index>(rest_.x.size()); }
+  NodalField rest_positions() const;
+  /// A third of its triangles' mass for each node [kg].
+  Eigen::ArrayXd masses() const;
+
+  /// Forces on the nodes at x under this pressure on the side from which the corners run
+  /// clockwise: -dW/dx + p dV/dx. Each rank computes those of its nodes and sends them while
+  /// the ranks do something else; f is complete after finish(). Both are collective, and f
+  /// must stay where it is until then. No bit depends on the number of ranks.
+  void start(const NodalField& x, double pressure, NodalField& f);
+  void finish();
+  void forces(const NodalField& x, double pressure, NodalField& f)
+  {
+    start(x, pressure, f);
+    finish();
+  }
+
+  double strain_energy(const NodalField& x) const; ///< [J]
+  MembraneFields fields(const NodalField& x) const;
+  MembraneTensions tensions(const NodalField& x) const;
+  /// Of a tube; normals inwards.
+  EnclosedVolume enclosed(const NodalField& x, const Tube& tube) const;
+  /// Folds of more than 90 degrees between neighbouring triangles.
+  std::size_t n_folds(const NodalField& x) const;
+
+  /// For each node a stiffness k such that u.K u <= sum k |u|^2 for the tangent stiffness K
+  /// at x [N/m]. A triangle has |d^2 W| <= mu (1 + 5 l^-6), l the smaller stretch, and 6 mu
+  /// where it wrinkles.
+  Eigen::ArrayXd stiffness_bound(const NodalField& x) const;
+
+private:
+  struct Batch;
+  MembraneStrain<double> strain(std::size_t t, const NodalField& x) const;
+
+  SurfaceMesh rest_;
+  MembraneMaterial material_;
+  std::vector<RestTriangle<double>> elements_;
+  std::vector<std::array<std::size_t, 2>> edges_; ///< pairs of neighbouring triangles
+  MPI_Comm comm_;
+  MPI_Request request_ = MPI_REQUEST_NULL;
+  std::vector<int> count_, start_;           ///< of doubles of f, by rank
+  std::vector<RestTriangle<Lanes>> batches_; ///< of the triangles of this rank's nodes
+  std::vector<std::array<std::uint32_t, 3 * n_lanes>> corners_; ///< by batch
+  std::size_t n_mine_ = 0; ///< triangles in the batches
+};
+
+} // namespace mergel::fem

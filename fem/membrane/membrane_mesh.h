@@ -1,0 +1,39 @@
+/// Meshes of membranes: triangles in space.
+#pragma once
+
+#include "fem/nodal.h"
+
+#include <array>
+#include <deal.II/grid/tria.h>
+
+namespace mergel::fem {
+
+using SurfaceTriangle = std::array<int, 3>; ///< numbers of its nodes
+
+/// Nodes and triangles of a surface.
+struct SurfaceMesh {
+  std::vector<Vec3> x; ///< [m]
+  std::vector<SurfaceTriangle> triangles;
+};
+
+/// Those of a triangulation of triangles, both in its order.
+/// @throws std::invalid_argument when it has another kind of cell
+SurfaceMesh surface_of(const dealii::Triangulation<2, 3>& mesh);
+
+/// Upright tube about the axis z. Rows of nodes from z_bottom up, every second one turned by
+/// half a node distance: triangles are nearly equilateral, and their normals point inwards.
+struct Tube {
+  double radius = 0.0, z_bottom = 0.0, height = 0.0; ///< [m]; nodes lie on the radius
+  int n_around = 0;                                  ///< nodes of a row, >= 3
+  int n_high = 0;                                    ///< rows of triangles, >= 1
+
+  /// The tube whose nodes are about `distance` [m] apart.
+  static Tube with_node_distance(double radius, double z_bottom, double height,
+                                 double distance);
+  int n_nodes() const { return n_around * (n_high + 1); }
+  int node(int around, int row) const { return row * n_around + around % n_around; }
+  double node_distance() const; ///< the largest [m]
+};
+void make_tube(const Tube& tube, dealii::Triangulation<2, 3>& mesh);
+
+} // namespace mergel::fem

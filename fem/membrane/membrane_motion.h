@@ -1,0 +1,103 @@
+/// Explicit motion of a membrane under pressure, nodal forces and guided nodes (fem/README.md,
+/// Membrane).
+#pragma once
+
+#include "fem/membrane/membrane.h"
+
+#include <span>
+
+namespace mergel::fem {
+
+/// Nodes whose motion is prescribed, along z or altogether.
+struct GuidedNodes {
+  std::vector<int> nodes;
+  bool along_z_only = true; ///< else all three components
+};
+
+/// Energy of a membrane [J]:
+///
+///   change of (kinetic + strain) = load_work + pressure_work + guide_work - damping
+///
+/// Works and damping are cumulative.
+struct MembraneEnergies {
+  double kinetic = 0.0;   ///< at n+1/2
+  double strain = 0.0;    ///< at n+1
+  double load_work = 0.0; ///< done by the nodal forces
+  double pressure_work =
+      0.0;                 ///< by the pressure: -p dV, less what it does on the end areas
+  double guide_work = 0.0; ///< by what guides nodes
+  double damping = 0.0;
+};
+
+/// What a restart needs to continue with the same bits.
+struct MembraneState {
+  NodalField x;               ///< x^{n+1} [m]
+  NodalField v;               ///< v^{n+1/2} [m/s]
+  NodalField f_own;           ///< of stretch and pressure at the start of the window [N]
+  NodalField f;               ///< nodal forces of the last step [N]
+  Eigen::ArrayXd m;           ///< [kg], > 0
+  double pressure = 0.0;      ///< as set last [Pa]
+  double next_pressure = 0.0; ///< in the own forces of the window that begins next [Pa]
+  double dt = 0.0;            ///< last time step [s]; 0 before the first
+  double window = 0.0;        ///< planned at the last kick by f_own [s]
+  double since = 0.0;         ///< time since that kick [s]
+  std::size_t n_left = 0;     ///< steps until the next one
+  std::size_t subcycle = 1;   ///< steps of a window that begins now
+  double work_pressure = 0.0; ///< pressure up to which its work is added [Pa]
+  EnclosedVolume work_volume; ///< and the volume
+  std::size_t n_volume = 0;   ///< windows since
+  double load_work = 0.0, pressure_work = 0.0, guide_work = 0.0, damping = 0.0; ///< [J]
+};
+
+/// Moves a membrane: leapfrog as for the far field (fem/README.md, Explicit step), with its own
+/// forces, those of stretch and pressure, at every s-th step by impulse.
+class MembraneMotion {
+public:
+  /// @param alpha local damping [-], in [0, 1)
+  MembraneMotion(Membrane membrane, const Tube& tube, double alpha,
+                 std::vector<GuidedNodes> guides);
+  MembraneMotion(MembraneMotion&&) = delete;
+  ~MembraneMotion();
+
+  /// One step of dt [s] > 0 under the nodal forces f [N].
+  /// @param guided velocity over the step of the nodes of all guides, one after the other
+  ///   [m/s]
+  void step(double dt, std::span<const Vec3> f, std::span<const Vec3> guided);
+
+  /// From the window after the next kick on [Pa].
+  void set_pressure(double p) { now_.pressure = p; }
+  void set_subcycle(std::size_t s) { now_.subcycle = s; }
+  /// Move on from rest with these masses [kg], > 0.
+  void set_masses(const Eigen::ArrayXd& m);
+
+  const Membrane& membrane() const { return membrane_; }
+  const Tube& tube() const { return tube_; }
+  double damping() const { return alpha_; }
+  const MembraneState& state() const { return now_; }
+  /// Whether a component of a node is free.
+  const Eigen::Array<double, 4, Eigen::Dynamic>& free() const { return free_; }
+  void restore(MembraneState state);
+
+  MembraneEnergies energies() const;
+  /// Sum of |f| over the free components of all nodes, over that of its two parts.
+  double unbalanced_ratio() const;
+  EnclosedVolume enclosed() const { return membrane_.enclosed(now_.x, tube_); }
+
+private:
+  void kick(double dt_kick, double window_kick);
+  void guide(double dt_kick, double window_kick, std::span<const Vec3> guided,
+             const NodalField& v_before);
+  void add_pressure_work();
+
+  Membrane membrane_;
+  Tube tube_;
+  double alpha_;
+  std::vector<GuidedNodes> guides_;
+  NodalField free_;       // 1 where free, 0 where guided
+  NodalField next_f_own_; // of the window that begins next
+  bool is_begun_ = false; // next_f_own_ is on its way
+  Eigen::ArrayXd inverse_m_;
+  MembraneState now_;
+};
+
+} // namespace mergel::fem
