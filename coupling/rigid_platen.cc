@@ -94,6 +94,12 @@ Interface RigidPlaten::interface(const dem::ContactLaw& contact) const
           follow(itself, itself.size())};
 }
 
+Vec3 RigidPlaten::velocity_at(const Vec3& x) const
+{
+  const Vec3 omega = now_.rotation * Vec3(in_plane_ * now_.omega);
+  return now_.v * spec_.mesh.axis + omega.cross(x - centre());
+}
+
 PlatenLoad RigidPlaten::sum(const Nodal& f) const
 {
   PlatenLoad load;

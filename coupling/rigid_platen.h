@@ -68,6 +68,8 @@ public:
 
   const PlatenMotion& motion() const { return now_; }
   dem::Vec3 axis() const { return now_.rotation * spec_.mesh.axis; } ///< tilted, unit
+  /// Of a point that moves with it [m/s].
+  dem::Vec3 velocity_at(const dem::Vec3& x) const;
   double inertia() const { return inertia_(0, 0); } ///< about the first axis of tilting
 
   Interface interface(const dem::ContactLaw& contact) const override;

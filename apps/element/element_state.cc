@@ -3,21 +3,15 @@
 #include "dem/io/state/assembly_state.h"
 #include "dem/io/state/energy_numbers.h"
 #include "dem/io/state/named_rows.h"
+#include "dem/io/state/stage_numbers.h"
 #include "dem/io/state/step_numbers.h"
 
 namespace mergel::apps {
 
 namespace {
 
-const char* const axis_names[] = {"x", "y", "z"};
-
-/// Append the components of a vector: "stress [Pa]" becomes "stress x [Pa]".
-template <class Numbers, class Vector>
-void append_vector(Numbers& to, const std::string& name, const std::string& unit, Vector& v)
-{
-  for (int a = 0; a < 3; ++a)
-    to.push_back({name + ' ' + axis_names[a] + ' ' + unit, &v[a]});
-}
+using dem::append_vector;
+using dem::axis_names;
 
 template <class Numbers, class Matrix>
 void append_matrix(Numbers& to, const std::string& name, const std::string& unit, Matrix& m)
@@ -34,26 +28,6 @@ void append_servo(Numbers& to, Servo& servo)
   to.push_back({"steps of the servo [-]", &servo.steps});
   append_vector(to, "integral of the servo", "[1/s]", servo.integral);
   append_vector(to, "stiffness of the servo", "[Pa]", servo.stiffness);
-}
-
-template <class Numbers, class Stage>
-void append_stage(Numbers& to, Stage& c)
-{
-  to.insert(to.end(),
-            {{"stage: stress at zero [Pa]", &c.at_zero},
-             {"stage: slope [-]", &c.slope},
-             {"stage: direction [-]", &c.direction},
-             {"stage: target [Pa] or [-]", &c.target},
-             {"stage: controlled stress at the start [Pa]", &c.controlled_stress_at_start},
-             {"stage: strain at the start [-]", &c.strain_at_start},
-             {"stage: value at the start [Pa] or [-]", &c.value_at_start},
-             {"stage: strain to return to [-]", &c.strain_to_return},
-             {"stage: share of the approach that remains [-]", &c.remaining}});
-  for (std::size_t a = 0; a < 3; ++a)
-    to.push_back({std::string("stage: stress to hold ") + axis_names[a] + " [Pa]",
-                  &c.rules[a].stress});
-  append_vector(to, "stage: edge at the start", "[m]", c.size_0);
-  append_vector(to, "stage: stress off what is to hold", "[Pa]", c.offset);
 }
 
 template <class Self>
@@ -75,7 +49,7 @@ dem::NumbersOf<Self> numbers_of(Self& s)
   append_vector(all, "sum of stresses to hold since the record", "[Pa]", s.held_sum);
   append_vector(all, "stiffness before the first stage", "[Pa]", s.stiffness_0);
   append_servo(all, s.servo);
-  append_stage(all, s.active);
+  dem::append_stage(all, s.active);
   dem::append_energies(all, "start: ", s.start);
   dem::append_stable_step(all, s.stable_step);
   dem::append_alarm(all, s.alarm);
@@ -85,23 +59,13 @@ dem::NumbersOf<Self> numbers_of(Self& s)
 template <class Self>
 dem::CountsOf<Self> counts_of(Self& s)
 {
-  using Stage = dem::ActiveStage;
-  auto& c = s.active;
-  dem::CountsOf<Self> all{
-      {"stage", &s.stage},
-      {"steps", &s.n_steps},
-      {"steps of the stage", &s.n_in_stage},
-      {"steps held after the approach", &s.n_held},
-      {"steps since the record", &s.n_stress},
-      {"rates limited by the servo", &s.servo.n_limited},
-      {"stage: controlled axes", &c.controlled, Stage::Controlled::y},
-      {"stage: rule of the other axes", &c.follow, Stage::Follow::each},
-      {"stage: quantity of the target", &c.quantity, dem::Quantity::controlled_stress},
-      {"stage: returns", &c.returns},
-      {"stage: approaches", &c.is_approaching}};
-  for (std::size_t a = 0; a < 3; ++a)
-    all.push_back({std::string("stage: rule of axis ") + axis_names[a], &c.rules[a].kind,
-                   dem::AxisRule::Kind::stress_controlled});
+  dem::CountsOf<Self> all{{"stage", &s.stage},
+                          {"steps", &s.n_steps},
+                          {"steps of the stage", &s.n_in_stage},
+                          {"steps held after the approach", &s.n_held},
+                          {"steps since the record", &s.n_stress},
+                          {"rates limited by the servo", &s.servo.n_limited}};
+  dem::append_stage_counts(all, s.active);
   dem::append_stable_step_counts(all, s.stable_step);
   return all;
 }

@@ -174,6 +174,11 @@ std::vector<Mat3> particle_stresses(const Assembly& assembly)
 
 Vec3 affine_stiffness(const Assembly& assembly)
 {
+  return affine_stiffness(assembly, assembly.cell.volume());
+}
+
+Vec3 affine_stiffness(const Assembly& assembly, double V)
+{
   ExactVector<EnergySum> sum;
   const auto add_spring = [&](const Branch& b, double k_n, double k_s) {
     const Vec3 n2 = b.n().cwiseAbs2();
@@ -205,7 +210,7 @@ Vec3 affine_stiffness(const Assembly& assembly)
   ExactReduction sums;
   sums.add(sum);
   sums.run(assembly.comm);
-  return sum.value() / assembly.cell.volume();
+  return sum.value() / V;
 }
 
 double inertial_number(double rate, double d, double rho, double p)

@@ -41,6 +41,8 @@ std::vector<Mat3> particle_stresses(const Assembly& assembly);
 /// Voigt's upper bound of the stiffness without lateral strain: particles do not follow the
 /// strain exactly.
 Vec3 affine_stiffness(const Assembly& assembly);
+/// The same of a specimen of this volume V [m^3] that is no cell; without its walls.
+Vec3 affine_stiffness(const Assembly& assembly, double V);
 
 /// Inertial number rate d sqrt(rho/p) [-]: time in which the pressure p moves a particle
 /// into a void, over the time of the strain. Below 1e-3 the motion is quasi-static. Source:

@@ -1,5 +1,7 @@
 #include "fem/membrane/membrane.h"
 
+#include <deal.II/grid/tria.h>
+
 #include <algorithm>
 #include <cstring>
 #include <map>

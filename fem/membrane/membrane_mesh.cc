@@ -1,5 +1,7 @@
 #include "fem/membrane/membrane_mesh.h"
 
+#include <deal.II/grid/tria.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>

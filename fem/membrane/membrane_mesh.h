@@ -4,7 +4,11 @@
 #include "fem/nodal.h"
 
 #include <array>
-#include <deal.II/grid/tria.h>
+
+namespace dealii {
+template <int dim, int spacedim>
+class Triangulation;
+}
 
 namespace mergel::fem {
 

@@ -1,0 +1,238 @@
+#include "coupling/membrane_structure.h"
+
+#include "dem/io/state/named_numbers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace mergel::coupling {
+
+namespace {
+
+/// The end nodes of a tube: those at the bottom, then those at the top.
+std::vector<fem::GuidedNodes> tied_nodes(const fem::Tube& tube, MembraneEnds ends)
+{
+  std::vector<fem::GuidedNodes> all(2);
+  for (std::size_t end = 0; end < 2; ++end) {
+    all[end].along_z_only = ends == MembraneEnds::free;
+    for (int i = 0; i < tube.n_around; ++i)
+      all[end].nodes.push_back(tube.node(i, end == 0 ? 0 : tube.n_high));
+  }
+  return all;
+}
+
+template <class State>
+auto fields_of(const std::string& name, State& s)
+{
+  return std::array<std::pair<std::string, decltype(&s.x)>, 4>{{{name + "_x", &s.x},
+                                                                {name + "_v", &s.v},
+                                                                {name + "_own", &s.f_own},
+                                                                {name + "_f", &s.f}}};
+}
+
+template <class State>
+dem::NumbersOf<State> numbers_of(State& s)
+{
+  auto& w = s.work_volume;
+  dem::NumbersOf<State> all{{"pressure [Pa]", &s.pressure},
+                            {"pressure of the next window [Pa]", &s.next_pressure},
+                            {"time step [s]", &s.dt},
+                            {"window of its own forces [s]", &s.window},
+                            {"time since they kicked [s]", &s.since},
+                            {"pressure of its work [Pa]", &s.work_pressure},
+                            {"volume of its work [m3]", &w.V},
+                            {"work of the particles [J]", &s.load_work},
+                            {"work of the pressure [J]", &s.pressure_work},
+                            {"work of the platens [J]", &s.guide_work},
+                            {"loss by damping [J]", &s.damping}};
+  const char* const ends[] = {"bottom", "top"};
+  for (std::size_t end = 0; end < 2; ++end)
+    for (int c = 0; c < 3; ++c) {
+      const std::string at = std::string(" at the ") + ends[end] + ' ' + "xyz"[c];
+      all.push_back({"area" + at + " [m2]", &w.area[end][c]});
+      all.push_back({"centre" + at + " [m]", &w.centre[end][c]});
+    }
+  return all;
+}
+
+template <class State>
+dem::CountsOf<State> counts_of(State& s)
+{
+  return {{"steps to the next kick by its own forces [-]", &s.n_left},
+          {"steps from kick to kick [-]", &s.subcycle},
+          {"windows since the work of the pressure [-]", &s.n_volume}};
+}
+
+template <class Limit>
+dem::NumbersOf<Limit> subcycle_numbers(Limit& limit)
+{
+  return {{"limit of the subcycle [-]", &limit}};
+}
+
+constexpr std::size_t nodal_columns = 4; // x, y, z and a fourth number for alignment
+
+} // namespace
+
+MembraneStructure::MembraneStructure(fem::Membrane membrane, const fem::Tube& tube,
+                                     MembraneEnds ends, double alpha,
+                                     const RigidPlaten& bottom, const RigidPlaten& top)
+    : motion_(std::move(membrane), tube, alpha, tied_nodes(tube, ends)), bottom_(bottom),
+      top_(top)
+{
+}
+
+double MembraneStructure::axial_force() const
+{
+  const fem::Tube& tube = motion_.tube();
+  double sum = 0.0;
+  for (int i = 0; i < tube.n_around; ++i)
+    sum += motion_.state().f_own(2, tube.node(i, tube.n_high));
+  return sum;
+}
+
+Interface MembraneStructure::interface(const dem::ContactLaw& contact) const
+{
+  const fem::SurfaceMesh& mesh = motion_.membrane().rest();
+  std::vector<int> itself(n_nodes());
+  for (std::size_t k = 0; k < itself.size(); ++k) itself[k] = static_cast<int>(k);
+  return {dem::make_wall(mesh.x, mesh.triangles, contact), follow(itself, itself.size())};
+}
+
+void MembraneStructure::positions(Nodal& x) const
+{
+  x.resize(n_nodes());
+  for (std::size_t k = 0; k < x.size(); ++k)
+    x[k] = fem::at(motion_.state().x, static_cast<Eigen::Index>(k));
+}
+
+void MembraneStructure::velocities(Nodal& v) const
+{
+  v.resize(n_nodes());
+  for (std::size_t k = 0; k < v.size(); ++k)
+    v[k] = fem::at(motion_.state().v, static_cast<Eigen::Index>(k));
+}
+
+void MembraneStructure::step(double dt, const Nodal& f)
+{
+  const fem::Tube& tube = motion_.tube();
+  guided_.clear();
+  for (const RigidPlaten* platen : {&bottom_, &top_})
+    for (int i = 0; i < tube.n_around; ++i)
+      guided_.push_back(platen->velocity_at(
+          fem::at(motion_.state().x, tube.node(i, platen == &bottom_ ? 0 : tube.n_high))));
+  motion_.step(dt, f, guided_);
+}
+
+std::optional<Nodal> MembraneStructure::solve_static(const Nodal&)
+{
+  return std::nullopt;
+}
+
+void MembraneStructure::equalise_frequencies(double omega2,
+                                             std::span<const double> stiffness)
+{
+  Eigen::ArrayXd m = motion_.membrane().stiffness_bound(motion_.state().x);
+  for (Eigen::Index a = 0; a < m.size(); ++a)
+    m[a] = (m[a] + stiffness[static_cast<std::size_t>(a)]) / omega2;
+  motion_.set_masses(m);
+}
+
+void MembraneStructure::restore_masses()
+{
+  motion_.set_masses(motion_.membrane().masses());
+}
+
+/// Own forces change little while a node swings on the particles that it touches: a window of
+/// at most half of the membrane's own limit 2/omega, and of at most half of the shortest period
+/// of a node between particles that are held, so that no node keeps pace with the impulses.
+void MembraneStructure::choose_subcycle(double dt, std::span<const double> stiffness,
+                                        double longest, std::size_t most)
+{
+  const Eigen::ArrayXd k = motion_.membrane().stiffness_bound(motion_.state().x);
+  const Eigen::ArrayXd& m = motion_.state().m;
+  double own2 = 0.0, held2 = 0.0;
+  for (Eigen::Index a = 0; a < k.size(); ++a) {
+    own2 = std::max(own2, k[a] / m[a]);
+    held2 = std::max(held2, (k[a] + stiffness[static_cast<std::size_t>(a)]) / m[a]);
+  }
+  double window = std::min(1.0 / std::sqrt(own2), dem::pi / std::sqrt(held2));
+  if (damping() == 0.0) window = std::min(window, longest); // nothing stops a resonance
+  subcycle_limit_ = window / dt;
+  motion_.set_subcycle(static_cast<std::size_t>(
+      std::clamp(std::floor(subcycle_limit_), 1.0, static_cast<double>(most))));
+}
+
+Structure::Subcycle MembraneStructure::subcycle() const
+{
+  return {motion_.state().subcycle, subcycle_limit_};
+}
+
+std::size_t MembraneStructure::n_amplitudes() const
+{
+  return 3 * n_nodes();
+}
+
+void MembraneStructure::move(std::span<const double> y, Nodal& u) const
+{
+  u.resize(n_nodes());
+  for (std::size_t k = 0; k < u.size(); ++k) {
+    const auto a = static_cast<Eigen::Index>(k);
+    const double root = 1.0 / std::sqrt(motion_.state().m[a]);
+    for (int c = 0; c < 3; ++c)
+      u[k][c] = motion_.free()(c, a) * root * y[3 * k + static_cast<std::size_t>(c)];
+  }
+}
+
+void MembraneStructure::multiply(std::span<const double> y, const Nodal& f,
+                                 std::span<double> to) const
+{
+  const Eigen::ArrayXd stiffness = motion_.membrane().stiffness_bound(motion_.state().x);
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    const auto a = static_cast<Eigen::Index>(k);
+    const double m = motion_.state().m[a], root = 1.0 / std::sqrt(m);
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t i = 3 * k + static_cast<std::size_t>(c);
+      to[i] = motion_.free()(c, a) * (stiffness[a] / m * y[i] + root * f[k][c]);
+    }
+  }
+}
+
+StructureEnergies MembraneStructure::energies() const
+{
+  const fem::MembraneEnergies e = motion_.energies();
+  return {e.kinetic, e.strain, e.load_work, 0.0, e.pressure_work + e.guide_work, e.damping};
+}
+
+void MembraneStructure::save(dem::State& state, const std::string& name) const
+{
+  const fem::MembraneState& s = motion_.state();
+  for (const auto& [array, field] : fields_of(name, s))
+    state.add_common(array,
+                     std::vector<double>(field->data(), field->data() + field->size()),
+                     nodal_columns);
+  state.add_common(name + "_m", std::vector<double>(s.m.data(), s.m.data() + s.m.size()),
+                   1);
+  dem::save_numbers(state, name + "_numbers", numbers_of(s));
+  dem::save_numbers(state, name + "_subcycle", subcycle_numbers(subcycle_limit_));
+  dem::save_counts(state, name + "_counts", counts_of(s));
+}
+
+void MembraneStructure::load(const dem::State& state, const std::string& name)
+{
+  fem::MembraneState s = motion_.state();
+  for (const auto& [array, field] : fields_of(name, s)) {
+    const auto& values = state.get_rows<double>(
+        array, static_cast<std::size_t>(field->cols()), nodal_columns);
+    std::copy(values.begin(), values.end(), field->data());
+  }
+  const auto& m = state.get_rows<double>(name + "_m", n_nodes());
+  std::copy(m.begin(), m.end(), s.m.data());
+  dem::load_numbers(state, name + "_numbers", numbers_of(s));
+  dem::load_numbers(state, name + "_subcycle", subcycle_numbers(subcycle_limit_));
+  dem::load_counts(state, name + "_counts", counts_of(s));
+  motion_.restore(std::move(s));
+}
+
+} // namespace mergel::coupling
