@@ -65,6 +65,18 @@ void write_particles(const std::filesystem::path& file, const Assembly& assembly
   write_points(file, x, fields);
 }
 
+std::vector<Field> strain_fields(const std::vector<DeformationFit>& fits)
+{
+  Field volumetric = scalar("volumetric strain [-]", {}),
+        shear = scalar("shear strain [-]", {}), D2_min = scalar("D2_min [-]", {});
+  for (const DeformationFit& fit : fits) {
+    volumetric.values.push_back(volumetric_strain(fit.F));
+    shear.values.push_back(shear_strain(fit.F));
+    D2_min.values.push_back(fit.D2_min);
+  }
+  return {volumetric, shear, D2_min};
+}
+
 void write_bonds(const std::filesystem::path& file, const Assembly& assembly)
 {
   const std::size_t n = assembly.bonds.size();

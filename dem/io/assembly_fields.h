@@ -1,6 +1,7 @@
 /// Fields of an assembly for ParaView (dem/README.md, Output).
 #pragma once
 
+#include "dem/assembly/local_strain.h"
 #include "dem/assembly/step.h"
 #include "dem/io/vtk.h"
 
@@ -12,6 +13,10 @@ namespace mergel::dem {
 /// vary, the factor of the bond strengths [-]; then the fields of `more`.
 void write_particles(const std::filesystem::path& file, const Assembly& assembly,
                      const std::vector<Vec3>& x_0, const std::vector<Field>& more = {});
+
+/// "volumetric strain [-]" (compression positive), "shear strain [-]" and "D2_min [-]" of
+/// each particle, for write_particles(); all 0 where the neighbours do not determine them.
+std::vector<Field> strain_fields(const std::vector<DeformationFit>& fits);
 
 /// Lines between particles that were ever bonded, with N (tension positive) [N], V [N], M
 /// [N m] and D. A bond through a periodic face ends at the image of its second particle.

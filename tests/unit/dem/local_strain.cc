@@ -1,4 +1,5 @@
 #include "dem/assembly/local_strain.h"
+#include "dem/io/assembly_fields.h"
 #include "tests/support/dem_scene.h"
 
 #include <catch2/catch.hpp>
@@ -248,4 +249,18 @@ TEST_CASE("Positions and radii of different number are refused", "[unit][dem]")
   CHECK_THROWS_AS(local_deformations(X, {}, radii(X)), std::logic_error);
   CHECK_THROWS_AS(local_deformations(X, X, {R}), std::logic_error);
   CHECK_THROWS_AS(deformation_of(X, X, {7}), std::out_of_range);
+}
+
+TEST_CASE("The strain fields have one finite number a particle", "[unit][dem]")
+{
+  const Mat3 F = simple_shear(0.1);
+  const auto fields = strain_fields({{F, 0.25, 6}, {}});
+  REQUIRE(fields.size() == 3);
+  CHECK(fields[0].name == "volumetric strain [-]");
+  CHECK(fields[1].name == "shear strain [-]");
+  CHECK(fields[2].name == "D2_min [-]");
+  for (const Field& field : fields) CHECK(field.components == 1);
+  CHECK(fields[0].values == std::vector<double>{volumetric_strain(F), 0.0});
+  CHECK(fields[1].values == std::vector<double>{shear_strain(F), 0.0});
+  CHECK(fields[2].values == std::vector<double>{0.25, 0.0});
 }
