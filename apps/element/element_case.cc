@@ -36,17 +36,7 @@ void declare_size_effect(CaseFile& file, SizeEffectKeys& e)
 void declare_loading(CaseFile& file, ElementCase& c)
 {
   const auto section = file.section("Loading");
-  c.stage_texts.assign(max_stages, "");
-  for (std::size_t k = 0; k < max_stages; ++k) {
-    file.former_name("leg " + std::to_string(k + 1), key_of_stage(k));
-    file.text(
-        key_of_stage(k), c.stage_texts[k],
-        k > 0 ? "The next loading stage; empty: the test ends with the stage before."
-              : std::string("A loading stage: ") + forms_of_stage +
-                    ". Compression is positive, z is the axis, strains count from the "
-                    "start of the stage (resume, unload, reload: of the stage resumed).",
-        k > 0 ? Default::present : Default::none);
-  }
+  declare_stages(file, c.stage_texts);
   file.number(
       "inertial number", c.inertial_number, inside(0.0, 0.1),
       "I = rate d sqrt(rho/p) of the controlled strain, d the mean particle diameter by "
@@ -105,17 +95,6 @@ void check_size(const CaseFile& file, const ElementCase& c)
                     " mm: lower the limit, or take a larger cell");
 }
 
-/// The stage that a `resume` after these stages resumes.
-const dem::LoadingStage& resumed(const std::vector<dem::LoadingStage>& stages)
-{
-  const auto at =
-      std::find_if(stages.rbegin(), stages.rend(), [](const dem::LoadingStage& stage) {
-        return stage.kind != dem::PathKind::resume;
-      });
-  require(at != stages.rend(), "there is no stage before to resume");
-  return *at;
-}
-
 /// Final state of another run, from its results folder.
 dem::CriticalState last_state(const CaseFile& file, const std::filesystem::path& folder)
 {
@@ -132,11 +111,6 @@ dem::CriticalState last_state(const CaseFile& file, const std::filesystem::path&
 }
 
 } // namespace
-
-std::string key_of_stage(std::size_t k)
-{
-  return "stage " + std::to_string(k + 1);
-}
 
 void declare(CaseFile& file, ElementCase& c)
 {
@@ -193,24 +167,7 @@ void complete(CaseFile& file, ElementCase& c)
 
   complete(file, c.checkpoints);
   file.derive("Loading", "reference pressure", tensile_strength(c.bond.chosen()) / 40.0);
-  bool is_over = false;
-  for (std::size_t k = 0; k < max_stages; ++k) {
-    if (c.stage_texts[k].empty()) {
-      is_over = true;
-      continue;
-    }
-    if (is_over)
-      file.refuse("Loading", key_of_stage(k),
-                  "the stage before is empty: number the stages without a gap");
-    try {
-      for (const dem::LoadingStage& stage : read_stages(c.stage_texts[k])) {
-        if (stage.kind == dem::PathKind::resume) stage.check_after(resumed(c.stages));
-        c.stages.push_back(stage);
-      }
-    } catch (const std::invalid_argument& e) {
-      file.refuse("Loading", key_of_stage(k), e.what());
-    }
-  }
+  c.stages = stages_of(file, c.stage_texts);
   std::istringstream folders(c.critical_text);
   for (std::string folder; folders >> folder;)
     c.critical_states.push_back(last_state(file, folder));

@@ -43,10 +43,6 @@ struct ElementCase : dem::ElementControl {
   CheckpointKey checkpoints;
 };
 
-constexpr std::size_t max_stages = 12;
-/// "stage 1" for k = 0.
-std::string key_of_stage(std::size_t k);
-
 void declare(CaseFile& file, ElementCase& c);
 
 /// Reads the stages and checks conditions on several keys.

@@ -169,6 +169,66 @@ std::vector<LoadingStage> read_stages(const std::string& text)
   return {stage, back};
 }
 
+std::string key_of_stage(std::size_t k)
+{
+  return "stage " + std::to_string(k + 1);
+}
+
+void declare_stages(CaseFile& file, std::vector<std::string>& texts)
+{
+  texts.assign(max_stages, "");
+  for (std::size_t k = 0; k < max_stages; ++k) {
+    file.former_name("leg " + std::to_string(k + 1), key_of_stage(k));
+    file.text(
+        key_of_stage(k), texts[k],
+        k > 0 ? "The next loading stage; empty: the test ends with the stage before."
+              : std::string("A loading stage: ") + forms_of_stage +
+                    ". Compression is positive, z is the axis, strains count from the "
+                    "start of the stage (resume, unload, reload: of the stage resumed).",
+        k > 0 ? Default::present : Default::none);
+  }
+}
+
+namespace {
+
+/// The stage that a `resume` after these stages resumes.
+const dem::LoadingStage& resumed(const std::vector<dem::LoadingStage>& stages)
+{
+  const auto at =
+      std::find_if(stages.rbegin(), stages.rend(), [](const dem::LoadingStage& stage) {
+        return stage.kind != dem::PathKind::resume;
+      });
+  require(at != stages.rend(), "there is no stage before to resume");
+  return *at;
+}
+
+} // namespace
+
+std::vector<LoadingStage> stages_of(const CaseFile& file,
+                                    const std::vector<std::string>& texts)
+{
+  std::vector<LoadingStage> stages;
+  bool is_over = false;
+  for (std::size_t k = 0; k < max_stages; ++k) {
+    if (texts[k].empty()) {
+      is_over = true;
+      continue;
+    }
+    if (is_over)
+      file.refuse("Loading", key_of_stage(k),
+                  "the stage before is empty: number the stages without a gap");
+    try {
+      for (const dem::LoadingStage& stage : read_stages(texts[k])) {
+        if (stage.kind == dem::PathKind::resume) stage.check_after(resumed(stages));
+        stages.push_back(stage);
+      }
+    } catch (const std::invalid_argument& e) {
+      file.refuse("Loading", key_of_stage(k), e.what());
+    }
+  }
+  return stages;
+}
+
 std::string name_of(const LoadingStage& stage)
 {
   std::string text = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) {

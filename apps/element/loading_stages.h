@@ -7,6 +7,7 @@
 ///     set stage 5 = axes x = fixed, y = 1 MPa, z = strain-controlled to axial strain = 2 %
 #pragma once
 
+#include "apps/case/case_file.h"
 #include "dem/element/stress_path.h"
 
 #include <string>
@@ -20,6 +21,16 @@ extern const char* const forms_of_stage;
 /// Stages of one key: one, or two for unload-reload.
 /// @throws InputError with the error and the expected form; it does not repeat the text
 std::vector<dem::LoadingStage> read_stages(const std::string& text);
+
+constexpr std::size_t max_stages = 12;
+/// "stage 1" for k = 0.
+std::string key_of_stage(std::size_t k);
+
+/// Declare the stages in the open section `Loading`. @param texts gets one for each key
+void declare_stages(CaseFile& file, std::vector<std::string>& texts);
+/// The stages of these texts. @throws InputError naming file, line and key
+std::vector<dem::LoadingStage> stages_of(const CaseFile& file,
+                                         const std::vector<std::string>& texts);
 
 /// "isotropic to p = 1 MPa"; for logs.
 std::string name_of(const dem::LoadingStage& stage);
