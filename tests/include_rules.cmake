@@ -65,6 +65,7 @@ set(apps_floors
     "coupled: case run specimen"
     "pile: case run specimen coupled"
     "element: case run specimen"
+    "triaxial: case run specimen coupled element"
     "bond: case run"
     "sample: case run specimen coupled pile"
     "bench: case run"

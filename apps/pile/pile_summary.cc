@@ -1,5 +1,6 @@
 #include "apps/pile/pile_summary.h"
 
+#include "apps/coupled/time_by_parts.h"
 #include "apps/run/progress.h"
 #include "apps/run/step_report.h"
 
@@ -17,37 +18,6 @@ std::size_t count_debris(const dem::Assembly& assembly, double collar_height)
 }
 
 namespace {
-
-struct Part {
-  const char* name;
-  double seconds;
-};
-
-/// Time of a step, and the parts of it in per cent; nothing without a step.
-std::string time_by_parts(const coupling::CoupledSystem& coupled, const Work& work)
-{
-  if (work.n_steps == 0) return "";
-  const dem::StepTimes& t = coupled.assembly.times;
-  const double far = coupled.structure_seconds(), ex = coupled.exchange_seconds();
-  const double whole = t.total() + far + ex;
-  std::ostringstream out;
-  out.precision(3);
-  out << "time of a step: " << 1e6 * whole / static_cast<double>(work.n_steps) << " us in "
-      << work.n_steps << " steps, "
-      << 1e9 * whole / static_cast<double>(work.n_steps * coupled.assembly.particles.size())
-      << " ns per particle;";
-  for (const Part& s : {Part{"bonds", t.bonds},
-                        {"contacts", t.contacts},
-                        {"walls", t.walls},
-                        {"motion", t.motion},
-                        {"ranks", t.exchange},
-                        {"lists", t.lists},
-                        {"far field", far},
-                        {"coupling", ex}})
-    out << ' ' << s.name << ' ' << 100.0 * s.seconds / whole << " %,";
-  out << ' ';
-  return out.str();
-}
 
 void add_figures(Summary& s, const Installation& run,
                  const coupling::CoupledSystem& coupled, std::size_t n_debris,
@@ -135,7 +105,8 @@ void summarise(Summary& summary, const PileCase& c, const Installation& run,
       << "time step " << coupled.dt << " s, ruled by "
       << dem::what_rules(coupled.stable_step)
       << subcycle_text(*coupled.structures.front().structure) << '\n'
-      << time_by_parts(coupled, work) << "whole run " << duration_text(work.seconds);
+      << time_by_parts(coupled, work, "far field") << "whole run "
+      << duration_text(work.seconds);
 }
 
 } // namespace mergel::apps

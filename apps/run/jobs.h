@@ -34,6 +34,8 @@ void help_pile(std::ostream& out);
 int run_pile(const JobOptions& options);
 void help_sample(std::ostream& out);
 int run_sample(const JobOptions& options);
+void help_triaxial(std::ostream& out);
+int run_triaxial(const JobOptions& options);
 
 /// Returns the exit code. @pre MPI is initialised
 using RunCase = int (*)(const JobOptions&);
@@ -51,7 +53,7 @@ struct Job {
   bool reads_case() const { return std::holds_alternative<RunCase>(run); }
 };
 
-inline constexpr std::array<Job, 6> jobs{{
+inline constexpr std::array<Job, 7> jobs{{
     {"bench", "Measure what a step costs on this machine.", help_bench, read_bench},
     {"bond", "Load one bonded pair of particles along any path.", help_bond, run_bond},
     {"element", "Load a periodic cell of bonded rock along any path of stress and strain.",
@@ -61,6 +63,8 @@ inline constexpr std::array<Job, 6> jobs{{
     {"pile", "Install a pile in a chamber of bonded rock.", help_pile, run_pile, true},
     {"sample", "Make a specimen and write it to a file for later runs.", help_sample,
      run_sample},
+    {"triaxial", "Load a cylinder of bonded rock in a membrane under a cell pressure.",
+     help_triaxial, run_triaxial, true},
 }};
 
 } // namespace mergel::apps

@@ -30,6 +30,7 @@ dem::NumbersOf<State> numbers_of(State& s)
       {"density of the rock [kg/m3]", &s.density},
       {"density of the particles [kg/m3]", &s.grain_density},
       {"mean diameter of the particles [m]", &s.mean_diameter},
+      {"enclosed volume before the test [m3]", &s.volume_0},
       {"start: kinetic energy of the structures [J]", &e.kinetic},
       {"start: strain energy of the structures [J]", &e.strain},
       {"start: work of the particles [J]", &e.wall_work},

@@ -57,6 +57,7 @@ TriaxialTest::TriaxialTest(const TriaxialControl& control, const SpecimenGeometr
   state_.stiffness = dem::affine_stiffness(a, volume).z();
   require(state_.stiffness > 0.0,
           "Specimen: no particles touch and none are bonded: it has no stiffness");
+  if (membrane_) state_.volume_0 = membrane_->motion().enclosed().V;
   state_.start = system_.energy_balances();
 }
 
@@ -290,6 +291,7 @@ MembraneRecord TriaxialTest::membrane_record() const
   const fem::MembraneMotion& motion = membrane_->motion();
   const fem::NodalField& x = motion.state().x;
   r.volume = motion.enclosed().V;
+  r.strain = 1.0 - r.volume / state_.volume_0;
   const fem::MembraneTensions tensions = motion.membrane().tensions(x);
   r.axial = -tensions.axial / r.volume;
   r.hoop = 0.5 * tensions.hoop / r.volume;

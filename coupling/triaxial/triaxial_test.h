@@ -29,6 +29,7 @@ struct SpecimenGeometry {
 /// What a membrane does, at one time.
 struct MembraneRecord {
   double volume = 0.0;     ///< enclosed by membrane and platens [m^3]
+  double strain = 0.0;     ///< volumetric, of that volume, compression positive [-]
   double axial = 0.0;      ///< axial stress that it carries, over the specimen's area [Pa]
   double hoop = 0.0;       ///< lateral stress by its hoop tension [Pa]
   double delivered = 0.0;  ///< mean pressure of the membrane on the particles [Pa]
@@ -80,6 +81,7 @@ struct TriaxialState {
   double stiffness = 0.0; ///< of the specimen if its particles follow the strain [Pa]
   double density = 0.0, grain_density = 0.0; ///< of the rock, of the particles [kg/m^3]
   double mean_diameter = 0.0;                ///< by mass [m]
+  double volume_0 = 0.0;                     ///< enclosed before the test [m^3]
   EnergyBalances start;
   dem::EnergyAlarm alarm;
 };

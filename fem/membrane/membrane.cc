@@ -278,4 +278,11 @@ Eigen::ArrayXd Membrane::stiffness_bound(const NodalField& x) const
   return k;
 }
 
+Membrane make_membrane(const Tube& tube, const MembraneMaterial& material, MPI_Comm comm)
+{
+  dealii::Triangulation<2, 3> mesh;
+  make_tube(tube, mesh);
+  return Membrane(mesh, material, comm);
+}
+
 } // namespace mergel::fem

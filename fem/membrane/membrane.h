@@ -101,4 +101,8 @@ private:
   std::size_t n_mine_ = 0; ///< triangles in the batches
 };
 
+/// The membrane of a tube at rest.
+Membrane make_membrane(const Tube& tube, const MembraneMaterial& material,
+                       MPI_Comm comm = MPI_COMM_NULL);
+
 } // namespace mergel::fem

@@ -1,0 +1,303 @@
+/// mergel triaxial: loads a cylinder of bonded rock between two platens, in a membrane under
+/// a cell pressure or unconfined.
+#include "apps/run/progress.h"
+#include "apps/run/protocol.h"
+#include "apps/run/ranks.h"
+#include "apps/run/step_report.h"
+#include "apps/specimen/specimen.h"
+#include "apps/triaxial/triaxial_output.h"
+#include "apps/triaxial/triaxial_summary.h"
+#include "dem/assembly/distribute.h"
+#include "dem/io/state/named_rows.h"
+
+#include <algorithm>
+#include <iostream>
+#include <optional>
+#include <sstream>
+
+namespace mergel::apps {
+
+namespace {
+
+class TriaxialJob : public CheckpointedJob {
+public:
+  const char* name() const override { return "triaxial"; }
+  void declare(CaseFile& file) override { apps::declare(file, case_); }
+  void complete(CaseFile& file) override { apps::complete(file, case_); }
+  const CheckpointKey& checkpoints() const override { return case_.checkpoints; }
+  std::vector<std::filesystem::path> inputs() const override
+  {
+    return {case_.specimen.sample, case_.specimen.table};
+  }
+  std::vector<std::string> free_keys() const override;
+
+  void check_restart(const CaseFile& file, const Restart& restart) const override;
+  std::string what_is_done(const Restart& restart) const override;
+
+  void begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm) override;
+  void resume(Restart& restart, RunFolder& folder, MPI_Comm comm) override;
+  void run(const std::function<void()>& after_step) override;
+  CheckpointScheduler::Position position() const override
+  {
+    return {system_->n_steps, system_->time,
+            "stage " + std::to_string(test_->state().stage + 1)};
+  }
+  void save(dem::State& state) const override;
+  void require_files() const override
+  {
+    on_first_rank([&] { output_->require_in_place(); });
+  }
+  void summarise(Summary& summary, const Work& work) const override;
+
+private:
+  bool is_under_way() const
+  {
+    return !outcomes_.empty() && outcomes_.back() == dem::Outcome::unstable;
+  }
+  dem::Outcome load_stage(const std::string& name, bool is_under_way,
+                          const std::function<void()>& after_step);
+  void report_step() const;
+  std::string record(); ///< returns lines for the user; mostly none
+  void frame();
+  bool frame_is_due(bool stage_ends) const;
+
+  TriaxialCase case_;
+  coupling::SpecimenGeometry geometry_;
+  std::optional<coupling::CoupledSystem> system_;
+  std::optional<coupling::TriaxialTest> test_;
+  std::optional<TriaxialOutput> output_; ///< on the first rank
+  std::vector<StagePoint> points_;       ///< of all records
+  TriaxialExtremes extremes_;
+  /// Of stages begun; of the one under way unstable.
+  std::vector<dem::Outcome> outcomes_;
+  double next_frame_ = 0.0; ///< axial strain [-]
+};
+
+std::vector<std::string> TriaxialJob::free_keys() const
+{
+  std::vector<std::string> keys{"Loading/strain limit", "Analysis/secant from",
+                                "Analysis/secant to", "Analysis/yield offset"};
+  for (std::size_t k = 0; k < max_stages; ++k) keys.push_back("Loading/" + key_of_stage(k));
+  return keys;
+}
+
+std::vector<dem::Outcome> load_outcomes(const dem::State& state, std::size_t n_stages)
+{
+  std::vector<dem::Outcome> outcomes;
+  for (const std::uint64_t n : state.get<std::uint64_t>("triaxial_outcomes")) {
+    if (n > static_cast<std::uint64_t>(dem::Outcome::unstable))
+      dem::State::refuse("triaxial_outcomes", "holds an unknown outcome");
+    outcomes.push_back(static_cast<dem::Outcome>(n));
+  }
+  if (outcomes.empty() || outcomes.size() > n_stages)
+    dem::State::refuse("triaxial_outcomes", "counts stages that the case does not have");
+  return outcomes;
+}
+
+/// Refuse a change of the stages up to the present one, or of the membrane that follows.
+void TriaxialJob::check_restart(const CaseFile& file, const Restart& restart) const
+{
+  const auto change =
+      std::find_if(restart.changed.begin(), restart.changed.end(), [](const auto& k) {
+        return k.section == "Loading" && k.key.starts_with("stage ");
+      });
+  if (change == restart.changed.end()) return;
+  CaseFile earlier_file;
+  TriaxialCase earlier;
+  apps::declare(earlier_file, earlier);
+  earlier_file.read_text(restart.checkpoint.label.case_text, restart.file.string());
+  apps::complete(earlier_file, earlier);
+  const auto n = load_outcomes(restart.checkpoint.state, earlier.stages.size()).size();
+  if (case_.stages.size() < n ||
+      !std::equal(earlier.stages.begin(), earlier.stages.begin() + n, case_.stages.begin()))
+    file.refuse("Loading", change->key,
+                "was \"" + change->was + "\", and the checkpoint is in stage " +
+                    std::to_string(n) +
+                    " of the test: only later stages may change. Restore it, and add a "
+                    "stage to go further; or choose an older checkpoint");
+}
+
+std::string TriaxialJob::what_is_done(const Restart& restart) const
+{
+  const auto outcomes = load_outcomes(restart.checkpoint.state, case_.stages.size());
+  const std::size_t n = outcomes.size();
+  switch (outcomes.back()) {
+  case dem::Outcome::unstable: // under way
+  case dem::Outcome::goes_on:
+    return "";
+  case dem::Outcome::done:
+    if (n < case_.stages.size()) return "";
+    return "all its stages are done. To load the specimen further, restart with another "
+           "stage.";
+  default:
+    return "stage " + std::to_string(n) +
+           " ended the test: " + dem::sentence_of(outcomes.back()) +
+           ". It cannot be loaded further.";
+  }
+}
+
+void TriaxialJob::report_step() const
+{
+  std::cout << report(case_.step, system_->stable_step, system_->dt,
+                      system_->assembly.particles);
+}
+
+void TriaxialJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
+{
+  const dem::Sample sample = obtain_sample(file, case_.specimen);
+  std::cout << report(case_.specimen, sample) << '\n';
+  geometry_ = geometry_of(case_, sample.packing.porosity);
+  system_.emplace(coupled_spec(case_), structures(case_, comm), sample.packing.particles,
+                  sample.bonding, comm);
+  system_->settling.phase = coupling::Settling::Phase::done; // nothing acts on it yet
+  system_->find_time_step();
+  system_->dt_before = system_->dt;
+  test_.emplace(case_, geometry_, *system_);
+  report_step();
+  std::cout << describe(case_, *test_) << '\n';
+  folder.prepare();
+  on_first_rank([&] {
+    dem::write_sample(folder.path() / "sample.h5", sample);
+    output_.emplace(folder.path(), case_);
+  });
+  if (case_.pictures != TriaxialCase::Pictures::none) frame();
+}
+
+void TriaxialJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
+{
+  dem::State& state = restart.checkpoint.state;
+  on_first_rank([&] { std::cout << TriaxialOutput::check(restart.folder, case_, state); });
+  points_ = load_points(state);
+  outcomes_ = load_outcomes(state, case_.stages.size());
+  dem::load_numbers(state, "triaxial_extremes", numbers_of(extremes_));
+  geometry_ = geometry_of(case_, state.get_rows<double>("porosity", 1).front());
+  next_frame_ = state.get_rows<double>("next_frame", 1).front();
+  const dem::State& numbers = state;
+  system_.emplace(coupled_spec(case_), structures(case_, comm), state,
+                  std::vector<dem::RigidWall>{}, comm);
+  test_.emplace(case_, geometry_, *system_, numbers);
+  report_step();
+  folder.prepare();
+  on_first_rank([&] { output_.emplace(folder.path(), case_, restart.folder, state); });
+}
+
+std::string TriaxialJob::record()
+{
+  const bool was_raised = test_->state().alarm.is_raised();
+  const coupling::TriaxialRecord r = test_->record();
+  points_.push_back(point_of(r));
+  extremes_.add(r);
+  on_first_rank([&] { output_->record(r); });
+  const dem::EnergyAlarm& alarm = test_->state().alarm;
+  return alarm.is_raised() && !was_raised ? alarm_text(alarm) : "";
+}
+
+void TriaxialJob::frame()
+{
+  const auto assembly = dem::gather_on_first_rank(system_->assembly);
+  on_first_rank([&] { output_->frame(test_->state().time, *assembly, *system_); });
+}
+
+bool TriaxialJob::frame_is_due(bool stage_ends) const
+{
+  using Pictures = TriaxialCase::Pictures;
+  if (case_.pictures == Pictures::none) return false;
+  if (stage_ends) return true;
+  return case_.pictures == Pictures::strain &&
+         std::abs(1.0 - test_->state().height / geometry_.height) >= next_frame_;
+}
+
+std::string words(const StagePoint& r)
+{
+  std::ostringstream out;
+  out.precision(3);
+  out << "cell " << 1e-6 * r.cell_pressure << "  q " << 1e-6 * r.whole.q()
+      << " MPa  axial strain " << 100.0 * r.whole.axial_strain() << " %  broken "
+      << r.broken;
+  return out.str();
+}
+
+/// Run one stage to its end, from its start or, if `is_under_way`, from the present state.
+dem::Outcome TriaxialJob::load_stage(const std::string& name, bool is_under_way,
+                                     const std::function<void()>& after_step)
+{
+  std::string alarm;
+  if (!is_under_way) alarm = record();
+  Progress progress("stage " + std::to_string(test_->state().stage + 1) + ", " + name);
+  progress.say(alarm);
+  for (;;) {
+    const bool approached = test_->is_approaching();
+    test_->step();
+    const dem::Outcome outcome = test_->outcome();
+    const bool ends = outcome != dem::Outcome::goes_on;
+    const bool begins = approached && !test_->is_approaching();
+    if (ends || test_->record_is_due() || begins) progress.say(record());
+    if (frame_is_due(ends)) {
+      frame();
+      next_frame_ =
+          std::abs(1.0 - test_->state().height / geometry_.height) + case_.picture_every;
+    }
+    if (ends) {
+      progress.done(words(points_.back()));
+      return outcome;
+    }
+    if (system_->n_steps % 20 == 0)
+      progress.update(test_->progress(), [&] { return words(points_.back()); });
+    after_step();
+  }
+}
+
+void TriaxialJob::run(const std::function<void()>& after_step)
+{
+  for (;;) {
+    const bool resumes = is_under_way();
+    if (!resumes) {
+      const std::size_t next = outcomes_.size();
+      const bool is_over = !outcomes_.empty() && outcomes_.back() != dem::Outcome::done;
+      if (is_over || next == case_.stages.size()) return;
+      test_->begin_stage(next);
+      outcomes_.push_back(dem::Outcome::unstable);
+    }
+    const std::string name = name_of(case_.stages[outcomes_.size() - 1]);
+    outcomes_.back() = load_stage(name, resumes, after_step);
+  }
+}
+
+void TriaxialJob::save(dem::State& state) const
+{
+  system_->save(state);
+  test_->save(state);
+  apps::save(state, points_);
+  dem::save_numbers(state, "triaxial_extremes", numbers_of(extremes_));
+  const double e = geometry_.void_ratio;
+  state.add_common<double>("porosity", {e / (1.0 + e)});
+  state.add_common<double>("next_frame", {next_frame_});
+  std::vector<std::uint64_t> outcomes;
+  for (const dem::Outcome o : outcomes_) outcomes.push_back(static_cast<std::uint64_t>(o));
+  state.add_common("triaxial_outcomes", std::move(outcomes));
+  TriaxialOutput::save(state, output_ ? &*output_ : nullptr);
+}
+
+void TriaxialJob::summarise(Summary& summary, const Work& work) const
+{
+  if (points_.empty()) return;
+  on_first_rank([&] {
+    apps::summarise(summary, case_, *test_, *system_, outcomes_, points_, extremes_, work);
+  });
+}
+
+} // namespace
+
+void help_triaxial(std::ostream& out)
+{
+  TriaxialJob job;
+  print_keys(job, out);
+}
+
+int run_triaxial(const JobOptions& options)
+{
+  TriaxialJob job;
+  return run_job(job, options);
+}
+
+} // namespace mergel::apps

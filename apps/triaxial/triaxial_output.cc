@@ -1,0 +1,230 @@
+#include "apps/triaxial/triaxial_output.h"
+
+#include "apps/run/restart.h"
+#include "dem/assembly/local_strain.h"
+#include "dem/io/assembly_fields.h"
+#include "dem/text.h"
+
+namespace mergel::apps {
+
+namespace {
+
+const std::vector<std::string> columns{"time [s]",
+                                       "stage [-]",
+                                       "axial strain [-]",
+                                       "axial strain of the middle third [-]",
+                                       "lateral strain of the middle third [-]",
+                                       "volumetric strain of the middle third [-]",
+                                       "axial strain of the stage [-]",
+                                       "controlled strain [-]",
+                                       "axial stress [Pa]",
+                                       "lateral stress [Pa]",
+                                       "p [Pa]",
+                                       "q [Pa]",
+                                       "raw q [Pa]",
+                                       "cell pressure [Pa]",
+                                       "pressure on the particles [Pa]",
+                                       "force on the upper platen [N]",
+                                       "force on the lower platen [N]",
+                                       "tilt of the upper platen [rad]",
+                                       "void ratio [-]",
+                                       "enclosed volume [m3]",
+                                       "volumetric strain of the enclosed volume [-]",
+                                       "membrane penetration [-]",
+                                       "axial stress of the membrane [Pa]",
+                                       "lateral stress of the membrane [Pa]",
+                                       "share of the membrane that wrinkles [-]",
+                                       "largest stretch of the membrane [-]",
+                                       "folds of the membrane [-]",
+                                       "broken bonds [-]",
+                                       "broken in tension [-]",
+                                       "broken in compression [-]",
+                                       "broken in shear [-]",
+                                       "broken in bending [-]",
+                                       "kinetic energy [J]",
+                                       "stored energy [J]",
+                                       "strain energy of the membrane [J]",
+                                       "work of platens and pressure [J]",
+                                       "plasticity and damage [J]",
+                                       "slip [J]",
+                                       "damping [J]",
+                                       "energy error [-]",
+                                       "interface force error [-]",
+                                       "interface moment error [-]",
+                                       "interface power error [-]",
+                                       "unbalanced-force ratio [-]",
+                                       "inertial number [-]",
+                                       "time step [s]",
+                                       "stable step [s]"};
+
+std::vector<Frames::Kind> kinds_of(const TriaxialCase& c)
+{
+  std::vector<Frames::Kind> kinds{
+      {"particles", "vtp"}, {"bonds", "vtp"}, {"platens", "vtp"}};
+  if (c.membrane.is_there) kinds.push_back({"membrane", "vtp"});
+  return kinds;
+}
+
+dem::HistoryMark mark_in(const dem::State& state)
+{
+  const auto& mark = state.get_rows<std::uint64_t>("output_history", 2);
+  return {mark[0], mark[1]};
+}
+
+double count(std::size_t n)
+{
+  return static_cast<double>(n);
+}
+
+std::vector<std::array<dem::Index, 3>>
+triangles_of(const std::vector<dem::Triangle>& triangles, std::size_t first = 0)
+{
+  std::vector<std::array<dem::Index, 3>> all;
+  for (const dem::Triangle& t : triangles) {
+    std::array<dem::Index, 3> to;
+    for (std::size_t k = 0; k < 3; ++k)
+      to[k] = static_cast<dem::Index>(first + dem::uz(t[k]));
+    all.push_back(to);
+  }
+  return all;
+}
+
+/// At the nodes, for the writer of surfaces has no cell data: mean of the triangles around.
+std::vector<dem::Field> membrane_fields(const fem::MembraneMotion& motion)
+{
+  const fem::MembraneFields f = motion.membrane().fields(motion.state().x);
+  const auto& triangles = motion.membrane().rest().triangles;
+  std::vector<double> n(motion.membrane().rest().x.size(), 0.0);
+  for (const auto& t : triangles)
+    for (const int k : t) n[dem::uz(k)] += 1.0;
+  std::vector<dem::Field> fields;
+  const auto add = [&](const char* name, const std::vector<double>& of_triangle) {
+    dem::Field field{name, 1, std::vector<double>(n.size(), 0.0)};
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (const int k : triangles[t])
+        field.values[dem::uz(k)] += of_triangle[t] / n[dem::uz(k)];
+    fields.push_back(std::move(field));
+  };
+  add("larger stretch [-]", f.stretch_1);
+  add("smaller stretch [-]", f.stretch_2);
+  add("larger stress [Pa]", f.stress_1);
+  add("smaller stress [Pa]", f.stress_2);
+  add("taut 2, wrinkled 1, slack 0", f.state);
+  return fields;
+}
+
+} // namespace
+
+TriaxialOutput::TriaxialOutput(const std::filesystem::path& folder, const TriaxialCase& c)
+    : history_(folder / "history.csv", columns), frames_(folder, kinds_of(c))
+{
+}
+
+TriaxialOutput::TriaxialOutput(const std::filesystem::path& folder, const TriaxialCase& c,
+                               const std::filesystem::path& earlier,
+                               const dem::State& state)
+    : history_(folder / "history.csv", columns, earlier / "history.csv", mark_in(state)),
+      frames_(folder, kinds_of(c), earlier, state)
+{
+}
+
+void TriaxialOutput::save(dem::State& state, const TriaxialOutput* output)
+{
+  const dem::HistoryMark mark = output ? output->history_.mark() : dem::HistoryMark{};
+  state.add_common<std::uint64_t>("output_history", {mark.bytes, mark.sum});
+  Frames::save(state, output ? &output->frames_ : nullptr);
+}
+
+std::string TriaxialOutput::check(const std::filesystem::path& folder,
+                                  const TriaxialCase& c, const dem::State& state)
+{
+  return report_on_history(folder / "history.csv", mark_in(state)) +
+         Frames::check(folder, kinds_of(c), state);
+}
+
+void TriaxialOutput::record(const coupling::TriaxialRecord& r)
+{
+  const dem::EnergyBalance& e = r.balance.assembly;
+  const coupling::StructureEnergies& s = r.balance.structures;
+  history_.add({r.time,
+                count(r.stage + 1),
+                r.whole.axial_strain(),
+                r.middle.axial,
+                r.middle.lateral,
+                r.middle.volumetric,
+                r.of_stage.axial_strain(),
+                r.controlled_strain,
+                r.whole.axial(),
+                r.whole.lateral(),
+                r.whole.p(),
+                r.whole.q(),
+                r.q_raw,
+                r.cell_pressure,
+                r.membrane.delivered,
+                r.F_top,
+                r.F_bottom,
+                r.tilt,
+                r.void_ratio,
+                r.membrane.volume,
+                r.membrane.strain,
+                r.membrane.strain - r.middle.volumetric,
+                r.membrane.axial,
+                r.membrane.hoop,
+                r.membrane.wrinkled,
+                r.membrane.stretch,
+                count(r.membrane.n_folds),
+                count(r.broken),
+                count(r.broken_by[0]),
+                count(r.broken_by[1]),
+                count(r.broken_by[2]),
+                count(r.broken_by[3]),
+                e.kinetic + s.kinetic,
+                e.bonds + e.contacts + e.walls,
+                s.strain,
+                s.applied_work,
+                e.plastic + e.breakage_release,
+                e.slip,
+                e.damping + s.damping,
+                r.energy_error,
+                r.interface.force,
+                r.interface.moment,
+                r.interface.power,
+                r.unbalanced,
+                r.inertial_number,
+                r.time_step,
+                r.stable_step});
+}
+
+void TriaxialOutput::frame(double time, const dem::Assembly& assembly,
+                           const coupling::CoupledSystem& system)
+{
+  require_in_place();
+  std::vector<dem::Vec3> x;
+  std::vector<double> R;
+  for (const dem::ParticleState& b : assembly.particles.state) {
+    x.push_back(b.x);
+    R.push_back(b.R);
+  }
+  dem::write_particles(frames_.file(0), assembly, system.x_0,
+                       dem::strain_fields(dem::local_deformations(system.x_0, x, R)));
+  dem::write_bonds(frames_.file(1), assembly);
+  std::vector<dem::Vec3> nodes;
+  std::vector<std::array<dem::Index, 3>> triangles;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const dem::Wall& platen = system.assembly.walls[k]; // the same on all ranks
+    const auto of_platen = triangles_of(platen.topology.triangles, nodes.size());
+    triangles.insert(triangles.end(), of_platen.begin(), of_platen.end());
+    nodes.insert(nodes.end(), platen.x.begin(), platen.x.end());
+  }
+  dem::write_surface(frames_.file(2), nodes, triangles, {});
+  if (system.structures.size() > 2) {
+    const auto& membrane =
+        dynamic_cast<const coupling::MembraneStructure&>(*system.structures[2].structure);
+    dem::write_surface(frames_.file(3), system.assembly.walls[2].x,
+                       triangles_of(system.assembly.walls[2].topology.triangles),
+                       membrane_fields(membrane.motion()));
+  }
+  frames_.add(time);
+}
+
+} // namespace mergel::apps

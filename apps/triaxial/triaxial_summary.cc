@@ -1,0 +1,206 @@
+#include "apps/triaxial/triaxial_summary.h"
+
+#include "apps/coupled/time_by_parts.h"
+#include "apps/run/progress.h"
+#include "apps/run/step_report.h"
+#include "dem/io/state/named_rows.h"
+#include "dem/io/state/stage_numbers.h"
+#include "dem/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace mergel::apps {
+
+StagePoint point_of(const coupling::TriaxialRecord& r)
+{
+  return {r.stage,    r.is_approach, r.controlled_strain, r.cell_pressure, r.whole,
+          r.of_stage, r.broken};
+}
+
+namespace {
+
+template <class Point>
+dem::NumbersOf<Point> numbers_of_point(Point& p)
+{
+  dem::NumbersOf<Point> all{{"controlled strain [-]", &p.controlled_strain},
+                            {"cell pressure [Pa]", &p.cell_pressure}};
+  dem::append_vector(all, "stress", "[Pa]", p.whole.stress);
+  dem::append_vector(all, "strain", "[-]", p.whole.strain);
+  dem::append_vector(all, "stress of the stage", "[Pa]", p.of_stage.stress);
+  dem::append_vector(all, "strain of the stage", "[-]", p.of_stage.strain);
+  return all;
+}
+
+template <class Point>
+dem::CountsOf<Point> counts_of_point(Point& p)
+{
+  return {{"stage", &p.stage}, {"approaches", &p.is_approach}, {"broken bonds", &p.broken}};
+}
+
+template <class Extremes>
+dem::NumbersOf<Extremes> numbers_of_extremes(Extremes& e)
+{
+  return {{"largest q [Pa]", &e.q},
+          {"largest difference of the platens [-]", &e.platen_difference},
+          {"largest energy error [-]", &e.energy_error},
+          {"largest inertial number [-]", &e.inertial_number},
+          {"largest tilt [rad]", &e.tilt},
+          {"largest stretch [-]", &e.stretch},
+          {"largest own load of the membrane [-]", &e.own_load},
+          {"void ratio [-]", &e.void_ratio},
+          {"membrane penetration [-]", &e.penetration},
+          {"volumetric strain [-]", &e.volumetric_strain}};
+}
+
+} // namespace
+
+void save(dem::State& state, const std::vector<StagePoint>& points)
+{
+  dem::save_number_rows(state, "point_numbers", points,
+                        [](auto& p) { return numbers_of_point(p); });
+  dem::save_count_rows(state, "point_counts", points,
+                       [](auto& p) { return counts_of_point(p); });
+}
+
+std::vector<StagePoint> load_points(const dem::State& state)
+{
+  auto points = dem::load_count_rows<StagePoint>(
+      state, "point_counts", [](auto& p) { return counts_of_point(p); });
+  if (points.empty()) dem::State::refuse("point_counts", "has no record");
+  dem::load_number_rows(state, "point_numbers", points,
+                        [](auto& p) { return numbers_of_point(p); });
+  return points;
+}
+
+dem::NumbersOf<TriaxialExtremes> numbers_of(TriaxialExtremes& e)
+{
+  return numbers_of_extremes(e);
+}
+dem::NumbersOf<const TriaxialExtremes> numbers_of(const TriaxialExtremes& e)
+{
+  return numbers_of_extremes(e);
+}
+
+void TriaxialExtremes::add(const coupling::TriaxialRecord& r)
+{
+  const auto raise = [](double& to, double value) { to = std::max(to, std::abs(value)); };
+  raise(q, r.whole.q());
+  raise(energy_error, r.energy_error);
+  raise(inertial_number, r.inertial_number);
+  raise(tilt, r.tilt);
+  raise(stretch, r.membrane.stretch);
+  void_ratio = r.void_ratio;
+  penetration = r.membrane.strain - r.middle.volumetric;
+  volumetric_strain = r.middle.volumetric;
+  const double F = r.F_top + r.F_bottom;
+  if (!(q > 0.0) || !(F > 0.0)) return;
+  if (std::abs(r.whole.q()) > 0.1 * q)
+    raise(platen_difference, 2.0 * (r.F_top - r.F_bottom) / F * r.whole.axial() / q);
+  own_load = (std::abs(r.membrane.axial) + std::abs(r.membrane.hoop)) / q;
+}
+
+std::string describe(const TriaxialCase& c, const coupling::TriaxialTest& test)
+{
+  std::ostringstream out;
+  out.precision(4);
+  const coupling::TriaxialState& s = test.state();
+  if (test.has_membrane()) {
+    const fem::MembraneMaterial& m = c.membrane.material;
+    out << "membrane: " << test.membrane().motion().membrane().rest().triangles.size()
+        << " triangles, nodes " << 1e3 * c.tube.node_distance() << " mm apart, E t "
+        << 1e-3 * m.E * m.thickness << " kN/m (E " << 1e-6 * m.E << " MPa, "
+        << 1e3 * m.thickness << " mm)\n";
+  } else {
+    out << "no membrane: unconfined\n";
+  }
+  const double c_wave = std::sqrt(s.stiffness / s.density);
+  out << "platens: at most " << 1e3 * c.wave_stress / (s.density * c_wave)
+      << " mm/s each, so that a wave has " << 1e-3 * c.wave_stress << " kPa (rho "
+      << s.density << " kg/m3, c " << c_wave << " m/s)";
+  return out.str();
+}
+
+namespace {
+
+/// Points of a stage and of those that resume it, without approaches.
+std::vector<StagePoint> points_of(const std::vector<StagePoint>& points, std::size_t stage)
+{
+  std::vector<StagePoint> own;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(own),
+               [&](const StagePoint& p) { return p.stage == stage && !p.is_approach; });
+  return own;
+}
+
+} // namespace
+
+void summarise(Summary& summary, const TriaxialCase& c, const coupling::TriaxialTest& test,
+               const coupling::CoupledSystem& system,
+               const std::vector<dem::Outcome>& outcomes,
+               const std::vector<StagePoint>& points, const TriaxialExtremes& extremes,
+               const Work& work)
+{
+  const StagePoint& last = points.back();
+  summary.number("p at the end [Pa]", last.whole.p());
+  summary.number("q at the end [Pa]", last.whole.q());
+  summary.number("largest q [Pa]", extremes.q);
+  summary.number("axial strain at the end [-]", last.whole.axial_strain());
+  summary.number("volumetric strain at the end [-]", extremes.volumetric_strain);
+  summary.number("void ratio at the end [-]", extremes.void_ratio);
+  summary.number("membrane penetration at the end [-]", extremes.penetration);
+  summary.number("own load of the membrane over the largest q [-]", extremes.own_load);
+  summary.number("largest difference of the platens over the largest q [-]",
+                 extremes.platen_difference);
+  summary.number("largest stretch of the membrane [-]", extremes.stretch);
+  summary.count("bonds broken [-]", last.broken);
+  summary.number("largest energy error [-]", extremes.energy_error);
+  add_alarm(summary, test.state().alarm);
+  summary.number("largest strain rate [1/s]", test.state().largest_rate);
+  summary.number("largest inertial number [-]", extremes.inertial_number);
+  summary.count("particles [-]", system.assembly.particles.size());
+  summary.count("steps [-]", system.n_steps);
+  add_step(summary, system.stable_step, system.dt);
+  if (test.has_membrane()) {
+    summary.count("steps from kick to kick by the membrane's own forces [-]",
+                  test.membrane().subcycle().n);
+    summary.number("limit of these steps [-]", test.membrane().subcycle().limit);
+  }
+  add_mass_scaling(summary, system.assembly.particles);
+  summary.number("wall-clock time [s]", work.seconds);
+
+  std::ostream& out = summary.closing;
+  out.precision(4);
+  for (std::size_t k = 0; k < outcomes.size(); ++k) {
+    out << "stage " << k + 1 << ", " << name_of(c.stages[k]) << ": "
+        << dem::sentence_of(outcomes[k]);
+    const auto own = points_of(points, k);
+    if (!own.empty()) {
+      const auto most = std::max_element(own.begin(), own.end(), [](auto& a, auto& b) {
+        return std::abs(a.whole.q()) < std::abs(b.whole.q());
+      });
+      out << "; largest q " << 1e-6 * most->whole.q() << " MPa at an axial strain of "
+          << 100.0 * most->whole.axial_strain() << " %";
+    }
+    out << '\n';
+  }
+  out << "at the end: p " << 1e-6 * last.whole.p() << ", q " << 1e-6 * last.whole.q()
+      << " MPa, volumetric strain of the middle third "
+      << 100.0 * extremes.volumetric_strain << " %, e " << extremes.void_ratio << ", "
+      << last.broken << " bonds broken\n";
+  if (test.has_membrane()) {
+    out << "membrane: penetration " << 100.0 * extremes.penetration
+        << " % of the volume, largest stretch " << extremes.stretch << ", own load "
+        << 100.0 * extremes.own_load << " % of the largest q"
+        << (extremes.own_load > 0.02 ? " (above 2 %: q is corrected for it)" : "") << '\n';
+  }
+  out << "platen forces differ by " << 100.0 * extremes.platen_difference
+      << " % of the largest q at most; largest energy error " << extremes.energy_error
+      << " of the work; strain rate up to " << test.state().largest_rate
+      << " 1/s, inertial number up to " << extremes.inertial_number << "\ntime step "
+      << system.dt << " s, ruled by " << dem::what_rules(system.stable_step) << '\n'
+      << time_by_parts(system, work, test.has_membrane() ? "membrane" : "platens")
+      << "whole run " << duration_text(work.seconds);
+}
+
+} // namespace mergel::apps
