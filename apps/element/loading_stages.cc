@@ -184,7 +184,9 @@ void declare_stages(CaseFile& file, std::vector<std::string>& texts)
         k > 0 ? "The next loading stage; empty: the test ends with the stage before."
               : std::string("A loading stage: ") + forms_of_stage +
                     ". Compression is positive, z is the axis, strains count from the "
-                    "start of the stage (resume, unload, reload: of the stage resumed).",
+                    "start of the stage (resume, unload, reload: of the stage resumed). "
+                    "Where a stage needs another lateral stress, that comes first, at "
+                    "constant q (from zero isotropic); strains count from its end.",
         k > 0 ? Default::present : Default::none);
   }
 }

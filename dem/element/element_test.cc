@@ -219,8 +219,8 @@ bool ElementTest::is_pulled_apart() const
   const ElementState& s = state_;
   const double counts = tension_threshold * control_.reference_pressure;
   const double pull = -s.active.controlled_stress(soil(mean_stress()));
-  if (s.active.direction < 0.0 && s.tension > counts &&
-      pull < min_tension_share * s.tension)
+  const bool is_extended = !s.active.is_approaching && s.active.direction < 0.0;
+  if (is_extended && s.tension > counts && pull < min_tension_share * s.tension)
     return true;
   const Vec3 wanted = s.held_sum / static_cast<double>(s.n_stress), borne = mean_stress();
   for (int a = 0; a < 3; ++a)

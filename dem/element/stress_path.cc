@@ -269,12 +269,18 @@ CellControl ActiveStage::control(const SoilState& s, double rate) const
     break;
   }
   if (!is_approaching) return axes;
+  double followed = controlled_stress_at_start;
+  if (follow == Follow::line) {
+    int n_held = 0; // 1 or 2 on a line
+    for (const AxisControl& axis : axes) n_held += axis.holds_stress;
+    followed -= (1.0 - remaining) * offset.sum() / n_held;
+  }
   for (std::size_t a = 0; a < 3; ++a) {
     AxisControl& axis = axes[a];
     if (axis.holds_stress)
       axis = {true, axis.stress - remaining * offset[static_cast<int>(a)], 0.0};
     else if (axis.rate != 0.0) // strain-controlled after the approach
-      axis = {true, -controlled_stress_at_start, 0.0};
+      axis = {true, -followed, 0.0};
   }
   return axes;
 }

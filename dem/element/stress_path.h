@@ -97,7 +97,7 @@ struct LoadingStage {
 /// One axis is strain-controlled, z if possible, or several together. The other axes hold a
 /// stress that follows the controlled stress, held = at_zero + slope * controlled stress,
 /// or their own rules. If the stresses differ from these values at the start, an approach
-/// brings them there first: see `offset`.
+/// brings them there first, on a line at constant q: see `offset`.
 struct ActiveStage {
   enum class Controlled { all, axial, lateral, x, y };
   enum class Follow { mean, nothing, line, each }; ///< isotropic; oedometer; others; axes
@@ -118,7 +118,8 @@ struct ActiveStage {
   /// Stress of each axis minus the stress that it is to hold, at the start of the stage
   /// [Pa]; 0 for axes that hold none. During an approach the share `remaining` of it is
   /// added to the stresses to hold, and the strain-controlled axes hold their stress at the
-  /// start.
+  /// start; on a line (Follow::line) they follow the mean change of the stresses to hold,
+  /// so that q stays what it was.
   Vec3 offset = Vec3::Zero();
   bool is_approaching = false;
   double remaining = 1.0; ///< share of `offset` [-]

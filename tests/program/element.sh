@@ -107,6 +107,27 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
 run "isotropic to p = 0.2 MPa" "triaxial at 1 MPa to p = 1.3 MPa" "isotropic to p = 1.5 MPa" "" k || fail "approach: $(cat k.log)"
 [ "$(grep -c '"outcome": "target reached"' k/summary.json)" -eq 3 ] || fail "an approach counts as a path that reversed: $(cat k.log)"
 
+# Consolidation is isotropic: the approach to a lateral stress from zero leaves q at zero, and what follows is
+# what follows isotropic compression to that stress. Measured: |q| up to 1.2 kPa; the peaks differ by 0.1 %, the
+# moduli by 0.8 % and Poisson's ratios by 4 %.
+run "triaxial at 3 MPa to axial strain = 1 %" "" "" "" l || fail "consolidated: $(cat l.log)"
+run "isotropic to p = 3 MPa" "triaxial to axial strain = 1 %" "" "" m || fail "consolidated in a stage: $(cat m.log)"
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  NR > 2 && $at["axial strain of the stage [-]"] == 0 { exit } # the approach is over
+  { q = $at["q [Pa]"]; if (q < 0) q = -q; if (q > most) most = q; ++n }
+  END { print "approach to 3 MPa: |q| up to " most " Pa"; exit !(n > 5 && most < 0.01e6) }' l/history.csv ||
+  fail "the approach to a lateral stress shears the specimen"
+for name in "Young's modulus" "largest q" "Poisson's ratio"; do
+  awk -v a="$(value l "$name")" -v b="$(value m "$name")" 'BEGIN { exit !(a > 0.9 * b && a < 1.1 * b) }' ||
+    fail "$name $(value l "$name"), after an isotropic stage $(value m "$name")"
+done
+awk -v a="$(value l "largest q")" -v b="$(value m "largest q")" 'BEGIN { exit !(a > 0.97 * b && a < 1.03 * b) }' ||
+  fail "peak $(value l "largest q"), after an isotropic stage $(value m "largest q") Pa"
+within l "largest q/p" 0.7 0.9
+# A tension that the axis loses in an approach is no failure.
+run "tension to axial stress = -1 MPa" "triaxial at 1 MPa to axial strain = -0.2 %" "" "" n || fail "relieved: $(cat n.log)"
+[ "$(grep -c '"outcome": "target reached"' n/summary.json)" -eq 2 ] || fail "an approach counts as failure in tension: $(cat n.log)"
+
 # Refused, in one line, before anything is written.
 refused() {
   local what=$1

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 using namespace mergel::dem;
@@ -204,9 +206,10 @@ TEST_CASE("A stage with another lateral stress approaches it before strain contr
   for (const double remaining : {1.0, 0.5, 0.0}) {
     active.remaining = remaining;
     const CellControl control = active.control(now, 1.0);
-    CHECK(control[0].stress == Approx(-0.25e6 - remaining * active.offset.x()));
+    const double lateral = 0.25e6 + remaining * active.offset.x();
+    CHECK(control[0].stress == Approx(-lateral));
     CHECK(control[2].holds_stress);
-    CHECK(control[2].stress == Approx(-now.axial()));
+    CHECK(control[2].stress == Approx(-lateral - now.q()));
   }
   active.is_approaching = false;
   CHECK_FALSE(active.control(now, 1.0)[2].holds_stress);
@@ -223,6 +226,66 @@ TEST_CASE("A stage with another lateral stress approaches it before strain contr
   lower.stress *= 0.9;
   for (const AxisControl& axis : active.control(lower, 1.0))
     CHECK(axis.stress == Approx(-sheared.p()));
+}
+
+namespace {
+
+/// Largest deviation of q from its value at the start of the approach of a stage [Pa].
+double change_of_q(ElasticCell cell, const LoadingStage& stage)
+{
+  const SoilState start = cell.state(cell.size);
+  ActiveStage active = begin_stage(stage, {}, start, cell.size);
+  REQUIRE(active.offset.cwiseAbs().maxCoeff() > 1e5);
+  active.is_approaching = true;
+  double largest = 0.0;
+  for (const double remaining : {0.9, 0.6, 0.3, 0.0}) {
+    active.remaining = remaining;
+    cell.follow(active, 0.0);
+    largest = std::max(largest, std::abs(cell.state(cell.size).q() - start.q()));
+  }
+  return largest;
+}
+
+} // namespace
+
+TEST_CASE("The approach to a lateral stress leaves q as it was", "[unit][dem]")
+{
+  LoadingStage at = stage(PathKind::triaxial, Quantity::axial_strain, 0.01);
+  at.has_lateral = true;
+  at.lateral = 3e6;
+  CHECK(change_of_q({}, at) < 1.0); // consolidation from zero is isotropic
+
+  ElasticCell sheared;
+  ActiveStage active;
+  sheared.lead(stage(PathKind::isotropic, Quantity::p, 1e6), active);
+  sheared.lead(stage(PathKind::triaxial, Quantity::q, 0.5e6), active);
+  sheared.deform({1e-4, -1e-4, 0.0}); // and x differs from y
+  CHECK(change_of_q(sheared, at) < 1.0);
+  const LoadingStage to_zero = stage(PathKind::compression, Quantity::axial_strain, 0.01);
+  CHECK(change_of_q(sheared, to_zero) < 1.0);
+  CHECK(change_of_q(sheared, stage(PathKind::tension, Quantity::axial_strain, -0.01)) <
+        1.0);
+}
+
+TEST_CASE("The approach of a stage that rules each axis leaves the others to themselves",
+          "[unit][dem]")
+{
+  LoadingStage plane;
+  plane.kind = PathKind::axes;
+  plane.axes = {AxisRule{},
+                {AxisRule::Kind::stress_controlled, 0.5e6},
+                {AxisRule::Kind::strain_controlled}};
+  plane.quantity = Quantity::axial_strain;
+  plane.target = 2e-3;
+  ElasticCell cell;
+  ActiveStage active = begin_stage(plane, {}, cell.state(cell.size), cell.size);
+  active.is_approaching = true;
+  active.remaining = 0.0;
+  cell.follow(active, 0.0);
+  const SoilState s = cell.state(cell.size);
+  CHECK(s.strain.x() == 0.0);
+  CHECK(s.stress.y() == Approx(0.5e6));
+  CHECK(s.stress.z() == Approx(0.0).margin(1.0)); // as it was
 }
 
 TEST_CASE("A stage that cannot reach its target by its kind is refused", "[unit][dem]")
