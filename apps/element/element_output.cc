@@ -307,6 +307,17 @@ void read_resumed(std::vector<Finding>& found,
                      (b.axial() - a.axial()) / (b.axial_strain() - a.axial_strain())});
 }
 
+std::optional<std::size_t>
+broken_in_approach(const std::vector<dem::ElementRecord>& records, std::size_t stage)
+{
+  const auto is_of = [&](const dem::ElementRecord& r) { return r.stage == stage; };
+  const auto first = std::find_if(records.begin(), records.end(), is_of);
+  if (first == records.end() || !first->is_approach) return {};
+  auto last = first; // the first record after the approach, if it ends
+  while (last->is_approach && last + 1 != records.end() && is_of(*(last + 1))) ++last;
+  return last->broken - first->broken;
+}
+
 void read_path(std::vector<Finding>& found, const ElementCase& c,
                const dem::LoadingStage& stage, const Backbone& way)
 {
@@ -371,7 +382,7 @@ std::vector<StageResult> analyse(const ElementCase& c,
   std::vector<StageResult> results;
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     const dem::LoadingStage& stage = c.stages[k];
-    StageResult result{name_of(stage), outcomes[k], {}};
+    StageResult result{name_of(stage), outcomes[k], broken_in_approach(records, k), {}};
     if (stage.kind == dem::PathKind::resume) {
       read_resumed(result.findings, records, k);
     } else {
@@ -405,6 +416,9 @@ std::string json_of(const std::vector<StageResult>& stages)
   for (const StageResult& stage : stages) {
     text += std::string(comma) + "    {\n      \"stage\": \"" + stage.name +
             "\",\n      \"outcome\": \"" + dem::sentence_of(stage.outcome) + "\"";
+    if (stage.broken_in_approach)
+      text += ",\n      \"bonds broken in the approach [-]\": " +
+              std::to_string(*stage.broken_in_approach);
     for (const Finding& f : stage.findings)
       text += ",\n      \"" + f.name + " [" + f.unit + "]\": " + dem::shortest(f.value);
     text += "\n    }";
@@ -464,6 +478,9 @@ void summarise(Summary& summary, const ElementCase& c, const ElementSummary& s)
                               : " " + f.unit);
     }
     out << '\n';
+    if (stage.broken_in_approach.value_or(0) > 0)
+      out << "stage " << k + 1 << ": " << *stage.broken_in_approach
+          << " bonds broke in the approach to its stress, before its readings\n";
   }
   out << "at the end: p " << 1e-6 * s.last.whole.p() << ", q " << 1e-6 * s.last.whole.q()
       << " MPa, e " << s.last.averages.void_ratio << ", " << s.last.broken

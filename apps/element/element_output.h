@@ -9,6 +9,7 @@
 #include "dem/io/state/state_file.h"
 
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,7 @@ struct Finding {
 struct StageResult {
   std::string name;
   dem::Outcome outcome = dem::Outcome::goes_on;
+  std::optional<std::size_t> broken_in_approach; ///< bonds; none without an approach
   std::vector<Finding> findings;
 };
 

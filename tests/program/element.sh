@@ -92,6 +92,11 @@ grep -q 'unstable point' f/summary.json || fail "an unstable path is not reporte
 run "triaxial at -3 MPa to axial strain = 1 %" "" "" "" h --set "Bond/softening displacement=0.0004 mm" \
   --set "Bond/softening rotation=0.004 rad" || fail "lateral tension: $(cat h.log)"
 grep -q 'failed in tension' h/summary.json || fail "failure of the lateral axes is not reported: $(tail -5 h.log)"
+# They fail in the approach: all bonds that broke are said to have broken there.
+broken=$(value h "bonds broken in the approach")
+[ "$broken" -gt 20 ] && [ "$broken" -eq "$(value h "bonds broken [-]")" ] &&
+  grep -q "^stage 1: $broken bonds broke in the approach" h.log ||
+  fail "$broken bonds broke in the approach: $(tail -6 h.log)"
 # Results of a stage include the stages that resume it: the strength is that of the last of three.
 run "compression to axial strain = 0.2 %" "unload-reload to axial stress = 0.5 MPa" \
   "resume to axial strain = 0.7 %" "" i || fail "unloaded and reloaded: $(cat i.log)"

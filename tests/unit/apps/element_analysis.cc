@@ -22,13 +22,14 @@ struct RecordedTest {
     }
   }
   void add(std::size_t stage, double controlled_strain, const dem::Vec3& strain,
-           const dem::Vec3& stress, bool is_approach = false)
+           const dem::Vec3& stress, bool is_approach = false, std::size_t broken = 0)
   {
     dem::ElementRecord r;
     r.stage = stage;
     r.controlled_strain = controlled_strain;
     r.of_stage = {stress, strain};
     r.is_approach = is_approach;
+    r.broken = broken;
     records.push_back(r);
   }
   /// Axial strains and stresses at this lateral stress; lateral strain is -0.2 times axial.
@@ -120,6 +121,29 @@ TEST_CASE("Records of an approach are left out, and so is q/p where p is near ze
   CHECK(found(r, "largest q/p") == Approx(1.5));
   CHECK(found(r, "friction angle at the end") ==
         Approx(std::asin(3.0 / 5.0) * 180.0 / dem::pi));
+}
+
+TEST_CASE("Bonds that break in an approach are counted, up to the start of the strain",
+          "[unit][apps]")
+{
+  const dem::Vec3 zero = dem::Vec3::Zero();
+  RecordedTest t;
+  t.stage("isotropic to p = 1 MPa");
+  t.stage("triaxial at 2 MPa to axial strain = 1 %");
+  t.stage("triaxial at 3 MPa to axial strain = 1 %");
+  t.add(0, 0.0, zero, zero);
+  t.add(0, 1e-3, zero, zero, false, 4);
+  t.add(1, 0.0, zero, zero, true, 4);
+  t.add(1, 1e-3, zero, zero, true, 5);
+  t.add(1, 0.0, zero, zero, false, 7); // at the end of the approach
+  t.add(1, 1e-3, zero, zero, false, 20);
+  t.add(2, 0.0, zero, zero, true, 20);
+  t.add(2, 1e-3, zero, zero, true, 29); // failed in it
+  const auto r = t.results();
+  CHECK_FALSE(r[0].broken_in_approach);
+  CHECK(r[1].broken_in_approach == 3);
+  CHECK(r[2].broken_in_approach == 9);
+  CHECK(r[2].findings.empty());
 }
 
 TEST_CASE("The friction angle is that of the largest and smallest stress along any axis",
