@@ -277,7 +277,7 @@ void read_poisson(std::vector<Finding>& found, const ElementCase& c, const Backb
 }
 
 /// In extension q and q/p are negative. States with p below 1 % of its largest value are
-/// left out.
+/// left out, and so is the friction angle of a state in tension, which cohesion bears.
 void read_stress_ratio(std::vector<Finding>& found, const Backbone& stage)
 {
   double eta_peak = 0.0, p_most = 0.0;
@@ -289,7 +289,7 @@ void read_stress_ratio(std::vector<Finding>& found, const Backbone& stage)
   const dem::SoilState& end = stage.states().back();
   if (!(end.p() > 0.01 * p_most)) return;
   found.push_back({"q/p at the end", "-", end.q() / end.p()});
-  if (end.stress.maxCoeff() + end.stress.minCoeff() > 0.0)
+  if (end.stress.minCoeff() >= 0.0) // p > 0
     found.push_back({"friction angle at the end", "degree",
                      dem::friction_angle(end.stress) * 180.0 / dem::pi});
 }

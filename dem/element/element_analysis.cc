@@ -83,7 +83,7 @@ std::optional<CurvePoint> first_collapse(const Curve& c, double share)
 double friction_angle(const Vec3& stress)
 {
   const double s1 = stress.maxCoeff(), s3 = stress.minCoeff();
-  return std::asin(std::min(1.0, (s1 - s3) / (s1 + s3)));
+  return std::asin((s1 - s3) / (s1 + s3));
 }
 
 std::optional<StraightLine> fit_line(const std::vector<double>& x,

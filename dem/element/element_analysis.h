@@ -47,7 +47,7 @@ std::optional<CurvePoint> first_collapse(const Curve& c, double share);
 /// Mobilised friction angle of Mohr and Coulomb without cohesion [rad]: sin phi = (sigma_1
 /// - sigma_3)/(sigma_1 + sigma_3), from the stresses along the axes, in any order. In
 /// triaxial compression sin phi = 3 eta/(6 + eta), eta = q/p.
-/// @pre the largest and the smallest stress have a positive sum
+/// @pre none is a tension and one is positive
 double friction_angle(const Vec3& stress);
 
 struct StraightLine {

@@ -123,6 +123,16 @@ TEST_CASE("Records of an approach are left out, and so is q/p where p is near ze
         Approx(std::asin(3.0 / 5.0) * 180.0 / dem::pi));
 }
 
+TEST_CASE("A state in tension has q/p and no friction angle", "[unit][apps]")
+{
+  RecordedTest t;
+  t.stage("triaxial to axial strain = -1 %");
+  t.axial(0, {{0.0, 1e6}, {-1e-3, 0.1e6}, {-1e-2, -0.28e6}}, 1e6);
+  const StageResult r = t.results()[0];
+  CHECK(found(r, "q/p at the end") == Approx(-1.28 / (1.72 / 3.0)));
+  CHECK(std::isnan(found(r, "friction angle at the end"))); // not 90 degrees
+}
+
 TEST_CASE("Bonds that break in an approach are counted, up to the start of the strain",
           "[unit][apps]")
 {
