@@ -56,32 +56,6 @@ double distance(const Vec3& from, const Vec3& to)
   return sqrt(dot(r, r));
 }
 
-/// True when the Voronoi region of the feature contains c on all triangles that share it. A
-/// shared feature is reported once, by the first of its triangles.
-bool is_reported(const Wall& wall, int t, const ClosestFeature& at, const Vec3& c)
-{
-  const WallTopology& topo = wall.topology;
-  if (at.on == ClosestFeature::On::face) return true;
-  const Triangle& tri = topo.triangles[uz(t)];
-  if (at.on == ClosestFeature::On::edge) {
-    const int other = topo.across[uz(t)][uz(at.which)];
-    if (other < 0) return true;
-    if (other < t) return false;
-    const Vec3 e = wall.x[uz(tri[uz((at.which + 1) % 3)])] - wall.x[uz(tri[uz(at.which)])];
-    // The other triangle has the edge in the opposite direction: e x normal points into it.
-    return (c - at.point).dot(e.cross(normal(wall, other))) <= 0.0;
-  }
-  const int node = tri[uz(at.which)];
-  for (const int other : topo.around[uz(node)]) {
-    if (topo.patch[uz(other)] != topo.patch[uz(t)]) continue;
-    if (other < t) return false;
-    for (const int m : topo.triangles[uz(other)])
-      if (m != node && (c - at.point).dot(wall.x[uz(m)] - wall.x[uz(node)]) > 0.0)
-        return false;
-  }
-  return true;
-}
-
 Vec3 closest_point_of_wall(const Wall& wall, const std::vector<int>& triangles,
                            const Vec3& c, Anchor& anchor)
 {
@@ -98,46 +72,126 @@ Vec3 closest_point_of_wall(const Wall& wall, const std::vector<int>& triangles,
   return point;
 }
 
-/// How much nearer c is to the face than to the valleys (concave folds) at its edges [m];
-/// infinite without a valley. It limits the overlap of the face, so that the force is
-/// continuous where a second face enters the contact.
-double distance_lead_over_valleys(const Wall& wall, int t, const Vec3& c, double distance)
-{
-  const WallTopology& topo = wall.topology;
-  const Triangle& tri = topo.triangles[uz(t)];
-  double lead = std::numeric_limits<double>::infinity();
-  for (int e = 0; e < 3; ++e) {
-    const int other = topo.across[uz(t)][uz(e)];
-    if (other < 0) continue;
-    const Vec3 &a = wall.x[uz(tri[uz(e)])], &b = wall.x[uz(tri[uz((e + 1) % 3)])];
-    const Vec3 ab = b - a;
-    const bool is_valley = ab.dot(normal(wall, t).cross(normal(wall, other))) < 0.0;
-    if (!is_valley) continue;
-    const double s = std::clamp((c - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
-    lead = std::min(lead, (c - a - s * ab).norm() - distance);
+/// Finds the features of a patch at which the distance of its points to c is stationary.
+class StationaryPoints {
+public:
+  StationaryPoints(const Wall& wall, const ParticleState& particle, double reach,
+                   std::vector<PatchFeature>& found)
+      : wall_(wall), c_(particle.x), beyond_(particle.R + reach), found_(found)
+  {
   }
-  return lead;
-}
+
+  /// Those of this triangle, shared ones by the first of their triangles.
+  void add(int t)
+  {
+    const Triangle& k = wall_.topology.triangles[uz(t)];
+    const ClosestFeature at = closest_on(wall_, t, c_);
+    if (at.on == ClosestFeature::On::face) add({t, at.weight}, at.point, 1.0);
+    for (int e = 0; e < 3; ++e) {
+      const int other = wall_.topology.across[uz(t)][uz(e)];
+      if (other < 0 || t < other) add_edge(t, e, other);
+      if (is_first_around(t, k[uz(e)])) add_corner(t, e);
+    }
+  }
+
+private:
+  const Vec3& corner(int t, int k) const
+  {
+    return wall_.x[uz(wall_.topology.triangles[uz(t)][uz(k % 3)])];
+  }
+
+  void add(const Anchor& at, const Vec3& point, double sign)
+  {
+    const double d = distance(c_, point), overlap = beyond_ - d;
+    if (overlap > 0.0)
+      found_.push_back({at, point, (point - c_) * (1.0 / d), d, overlap, sign});
+  }
+
+  /// Whether the distance falls from edge e of the triangle t into the triangle.
+  bool falls_into(int t, int e) const
+  {
+    const Vec3 &a = corner(t, e), &b = corner(t, e + 1), &d = corner(t, e + 2);
+    const Vec3 ab = b - a, n = ab.cross(d - a);
+    return (c_ - a).dot(n.cross(ab)) > 0.0;
+  }
+
+  /// A least distance across a ridge counts once; a largest one across a valley makes a
+  /// saddle, and counts against the two sides.
+  void add_edge(int t, int e, int other)
+  {
+    const Vec3 &a = corner(t, e), &b = corner(t, e + 1);
+    const Vec3 ab = b - a;
+    const double from_a = (c_ - a).dot(ab), length2 = ab.squaredNorm();
+    if (from_a <= 0.0 || (c_ - b).dot(ab) >= 0.0) return;
+    const double s = from_a / length2;
+    const Vec3 point = a + s * ab;
+    if ((point - c_).squaredNorm() >= beyond_ * beyond_) return;
+    const bool here = falls_into(t, e);
+    bool there = here;
+    if (other >= 0) there = falls_into(other, edge_of(other, t));
+    if (here != there || (other < 0 && here)) return;
+    Vec3 weight = Vec3::Zero();
+    weight[e] = 1.0 - s;
+    weight[(e + 1) % 3] = s;
+    add({t, weight}, point, here ? -1.0 : 1.0);
+  }
+
+  int edge_of(int t, int neighbour) const
+  {
+    const auto& across = wall_.topology.across[uz(t)];
+    return across[0] == neighbour ? 0 : across[1] == neighbour ? 1 : 2;
+  }
+
+  bool is_first_around(int t, int node) const
+  {
+    for (const int other : wall_.topology.around[uz(node)])
+      if (other < t && wall_.topology.patch[uz(other)] == wall_.topology.patch[uz(t)])
+        return false;
+    return true;
+  }
+
+  /// Counts 1 less the number of separate ways down from the corner; 1 where all around it is
+  /// down.
+  void add_corner(int t, int k)
+  {
+    const Vec3& v = corner(t, k);
+    if ((v - c_).squaredNorm() >= beyond_ * beyond_) return;
+    const int node = wall_.topology.triangles[uz(t)][uz(k)];
+    int n_ways = 0; // the edge at which each begins, going around
+    for (const int around : wall_.topology.around[uz(node)]) {
+      if (wall_.topology.patch[uz(around)] != wall_.topology.patch[uz(t)]) continue;
+      const Triangle& tri = wall_.topology.triangles[uz(around)];
+      const int at = tri[0] == node ? 0 : tri[1] == node ? 1 : 2;
+      const bool first = (c_ - v).dot(corner(around, at + 1) - v) > 0.0,
+                 second = (c_ - v).dot(corner(around, at + 2) - v) > 0.0;
+      n_ways += second && !first;
+      const bool begins_at_boundary = wall_.topology.across[uz(around)][uz(at)] < 0;
+      n_ways += begins_at_boundary && first;
+    }
+    if (n_ways == 1) return;
+    Vec3 weight = Vec3::Zero();
+    weight[k] = 1.0;
+    add({t, weight}, v, 1.0 - n_ways);
+  }
+
+  const Wall& wall_;
+  const Vec3& c_;
+  double beyond_; ///< distance at which a feature touches [m]
+  std::vector<PatchFeature>& found_;
+};
 
 } // namespace
 
-std::optional<PatchContact> patch_contact(const Wall& wall,
-                                          const ListedCandidate& candidate,
-                                          const ParticleState& particle, double wall_travel)
+void find_patch_features(const Wall& wall, const ListedCandidate& candidate,
+                         const ParticleState& particle, double wall_travel,
+                         std::vector<PatchFeature>& found)
 {
-  struct Feature {
-    Anchor at;
-    ClosestFeature::On on;
-    Vec3 point;
-    double distance, overlap;
-  };
-  std::array<Feature, PatchContact::max_features> features;
-  std::size_t n_features = 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  bool is_inside = true;
-  Feature closest{};
+  found.clear();
   const double reach = activation_gap(wall.material) * particle.S;
   const double moved = candidate.motion(particle, wall_travel);
+  StationaryPoints points(wall, particle, reach, found);
+  double nearest = std::numeric_limits<double>::infinity();
+  bool is_inside = true;
   for (const auto& [t, clearance] : wall.near_triangles(candidate)) {
     if (clearance > moved) continue;
     const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(t)][0])];
@@ -146,68 +200,20 @@ std::optional<PatchContact> patch_contact(const Wall& wall,
     if (height - particle.R >= reach + 1e-6 * particle.R) continue;
     const ClosestFeature at = closest_on(wall, t, particle.x);
     const double d = distance(particle.x, at.point);
-    const Feature feature{{t, at.weight}, at.on, at.point, d, reach - (d - particle.R)};
+    if (d >= particle.R + reach) continue;
     if (d < nearest) {
       nearest = d;
-      closest = feature;
       // At a boundary edge of the wall there is no wrong side.
       const bool has_sides = at.on == ClosestFeature::On::face ||
                              (at.on == ClosestFeature::On::edge &&
                               wall.topology.across[uz(t)][uz(at.which)] >= 0);
       is_inside = !has_sides || height > 0.0;
     }
-    if (feature.overlap <= 0.0 || !is_reported(wall, t, at, particle.x)) continue;
-    if (n_features == features.size())
-      throw NumericalError(
-          "it touches more than " + std::to_string(features.size()) +
-          " faces, edges and corners of a wall: the triangles of the wall are too small "
-          "for the particles");
-    features[n_features++] = feature;
+    points.add(t);
   }
   // Only what is in contact is judged: which other triangles were examined depends on the
   // list. No centre gets past a wall without a contact before.
-  if (!is_inside && closest.overlap > 0.0)
-    throw NumericalError("its centre is on the wrong side of a wall");
-
-  double total = 0.0;
-  for (std::size_t k = 0; k < n_features; ++k) {
-    Feature& f = features[k];
-    if (f.on == ClosestFeature::On::face && n_features > 1)
-      f.overlap = std::min(
-          f.overlap, std::max(0.0, distance_lead_over_valleys(wall, f.at.triangle,
-                                                              particle.x, f.distance)));
-    total += f.overlap;
-  }
-  // Above an edge, round-off may leave the centre in no Voronoi region: take the closest
-  // feature.
-  if (total <= 0.0 && closest.overlap > 0.0) {
-    features[0] = closest;
-    n_features = 1;
-    total = closest.overlap;
-  }
-  if (n_features == 0) return std::nullopt;
-
-  PatchContact p;
-  if (n_features == 1) { // the same bits as a batch of faces gives
-    const Feature& only = features[0];
-    p.shares[p.n++] = {only.at, 1.0};
-    p.geometry = {(only.point - particle.x) * (1.0 / only.distance),
-                  only.distance - particle.R, only.point,
-                  at(wall.v, wall.topology, only.at)};
-    return p;
-  }
-  double mean_distance = 0.0;
-  for (std::size_t k = 0; k < n_features; ++k) {
-    const double w = features[k].overlap / total; // overlaps are positive
-    p.shares[p.n++] = {features[k].at, w};
-    p.geometry.point += w * features[k].point;
-    p.geometry.v += w * at(wall.v, wall.topology, features[k].at);
-    p.geometry.n += w * (features[k].point - particle.x) / features[k].distance;
-    mean_distance += w * features[k].distance;
-  }
-  p.geometry.n.normalize();
-  p.geometry.gap = mean_distance - particle.R;
-  return p;
+  if (!is_inside) throw NumericalError("its centre is on the wrong side of a wall");
 }
 
 std::optional<NearestPoint> nearest_point(const Wall& wall,

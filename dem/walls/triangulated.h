@@ -123,31 +123,30 @@ struct Wall {
 Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
                const ContactLaw& material);
 
-/// Contact of one particle with a patch: one contact geometry, shared by the features
-/// (faces, edges, corners) in contact.
-struct PatchContact {
-  ContactGeometry geometry;
-  struct Share {
-    Anchor at;
-    double weight;
-  };
-  static constexpr std::size_t max_features = 8;
-  /// The first n are used: their weights sum to 1, geometry.point is the weighted sum of
-  /// points.
-  std::array<Share, max_features> shares;
-  std::size_t n = 0;
+/// A point of a patch at which the distance to a centre c is stationary over the patch: on a
+/// face, an edge or a corner.
+struct PatchFeature {
+  Anchor at;
+  Vec3 point;      ///< [m]
+  Vec3 n;          ///< unit, from c to the point
+  double distance; ///< from c [m]
+  double overlap;  ///< R + g_a S - distance, > 0 [m]
+  /// 1 for a least or largest distance, -1 for a saddle (an edge at the bottom of a valley), less
+  /// where more ways lead down. All signs of a flat or smooth patch sum to 1.
+  double sign;
 };
 
-/// Features with a gap below g_a S whose Voronoi region contains the centre share the
-/// contact, in proportion to their overlaps. In a valley the overlap of a face is at most
-/// the distance to the fold less that to the face, so that the force is continuous.
+/// The features of the candidate's patch in contact. The energy of the contact is the sum of
+/// sign times that of each overlap. So a flat patch acts as one contact wherever its edges and
+/// corners lie, the sides of a deep valley act each by itself, and between these force and
+/// energy are continuous: where a side begins to act, so does the edge, and they cancel.
+/// Source: Morse theory, as for the Euler characteristic; dem/README.md, Walls.
 /// @param wall_travel bound of the motion of a node since the candidate was listed [m]
-/// @throws NumericalError when the centre is on the wrong side of the wall, or when more
-///   than PatchContact::max_features are in contact
-std::optional<PatchContact> patch_contact(const Wall& wall,
-                                          const ListedCandidate& candidate,
-                                          const ParticleState& particle,
-                                          double wall_travel);
+/// @param found replaced
+/// @throws NumericalError when the centre is on the wrong side of the wall
+void find_patch_features(const Wall& wall, const ListedCandidate& candidate,
+                         const ParticleState& particle, double wall_travel,
+                         std::vector<PatchFeature>& found);
 
 /// The point of the candidate's triangles that is closest to the particle.
 struct NearestPoint {
@@ -187,7 +186,7 @@ struct WallSums {
 WallSums sum_contact_forces(const Wall& wall); ///< of this rank
 
 /// Add contacts and bonds to p.load and wall.f over the step dt [s] that ends now.
-/// @throws NumericalError naming the particle, as patch_contact()
+/// @throws NumericalError naming the particle, as find_patch_features()
 void add_wall_forces(Wall& wall, const PairMaterials& material, double dt, Particles& p,
                      PairLosses& losses);
 

@@ -109,6 +109,14 @@ struct WallStep {
     nodes.add(triangle(t), weight, -F);
     wall.contact_forces.push_back({vec3(F), vec3(x), vec3(v)});
   }
+
+  /// Where a force acts on a particle, its opposite acts on the wall.
+  /// @param v of the wall there
+  void add_to_wall(const Vec3& force, const PatchFeature& where, const Vec3& v)
+  {
+    nodes.add(triangle(where.at.triangle), row_of(where.at.weight), row_of(-force));
+    wall.contact_forces.push_back({force, where.point, v});
+  }
 };
 
 /// Contacts with the only triangle that is near, a batch at a time; all others one by one. A
@@ -172,18 +180,62 @@ private:
     Wall& wall = step_.wall;
     WallContact& contact = wall.contacts[c];
     const ParticleState& particle = step_.p.state[contact.particle];
-    const auto patch = with_particle_id(step_.p.id[contact.particle], [&] {
-      return patch_contact(wall, wall.listed[c], particle, moved_);
+    with_particle_id(step_.p.id[contact.particle], [&] {
+      find_patch_features(wall, wall.listed[c], particle, moved_, features_);
+      return 0;
     });
-    if (!patch) return open(c);
-    const Vec3 f = add_wall_contact(law_, patch->geometry, step_.dt, particle,
-                                    step_.p.load[contact.particle], contact, step_.losses);
-    for (std::size_t s = 0; s < patch->n; ++s) {
-      const Anchor& at = patch->shares[s].at;
-      step_.nodes.add(step_.triangle(at.triangle), row_of(at.weight),
-                      row_of(-patch->shares[s].weight * f));
+    if (features_.empty()) return open(c);
+    if (features_.size() > 1) return add_several(contact, particle);
+    const PatchFeature& only = features_.front(); // the same bits as in a batch
+    const Vec3 v = at(wall.v, wall.topology, only.at);
+    const Vec3 f = add_wall_contact(
+        law_, {only.n, only.distance - particle.R, only.point, v}, step_.dt, particle,
+        step_.p.load[contact.particle], contact, step_.losses);
+    step_.add_to_wall(f, only, v);
+  }
+
+  /// Normal forces of all features, each along its own normal. Their resultant decides on the
+  /// one shear force, which acts at the mean point of those that press.
+  void add_several(WallContact& contact, const ParticleState& particle)
+  {
+    const Wall& wall = step_.wall;
+    const ContactSides<double> sides = sides_at_wall(particle.R);
+    Vec3 pressure = Vec3::Zero(), x = pressure, v = pressure;
+    double energy = 0.0, pressing = 0.0, largest = 0.0;
+    for (const PatchFeature& f : features_) {
+      const double f_n = normal_force(law_, sides, f.overlap);
+      pressure += f.sign * f_n * f.n;
+      energy += f.sign * contact_energy(law_, sides, f.overlap, 0.0);
+      largest = std::max(largest, f.overlap);
+      if (f.sign < 0.0) continue;
+      pressing += f_n;
+      x += f_n * f.point;
+      v += f_n * at(wall.v, wall.topology, f.at);
     }
-    wall.contact_forces.push_back({f, patch->geometry.point, patch->geometry.v});
+    // A law whose energy grows with a power m of the overlap has f_n = m energy/overlap.
+    const double of_largest = contact_energy(law_, sides, largest, 0.0),
+                 f_largest = normal_force(law_, sides, largest),
+                 m = f_largest * largest / of_largest, size = pressure.norm();
+    x *= 1.0 / pressing;
+    v *= 1.0 / pressing;
+    const double overlap = largest * std::pow(size / f_largest, 1.0 / (m - 1.0));
+    const ContactGeometry mean{size > 0.0 ? Vec3(pressure / size) : features_.front().n,
+                               activation_gap(law_) * particle.S - overlap, x, v};
+    const WallContactStep<double> now = wall_contact_step(
+        law_, end_of(particle), wall_point(mean), triple(contact.f_s), step_.dt);
+    if (now.slip_loss != 0.0) step_.losses.slip.add(now.slip_loss);
+    contact.f_s = vec3(now.f_s);
+    contact.overlap = largest * std::pow(energy / of_largest, 1.0 / m);
+
+    Load& load = step_.p.load[contact.particle];
+    load.t += (x - particle.x).cross(contact.f_s); // normals pass through the centre
+    for (const PatchFeature& f : features_) {
+      const double f_n = normal_force(law_, sides, f.overlap);
+      Vec3 force = -f.sign * f_n * f.n;
+      if (f.sign > 0.0) force += f_n / pressing * contact.f_s;
+      load.f += force;
+      step_.add_to_wall(force, f, at(wall.v, wall.topology, f.at));
+    }
   }
 
   void add_batch()
@@ -244,6 +296,7 @@ private:
   std::size_t contact_[n_lanes];
   Index particle_[n_lanes];
   int triangle_[n_lanes];
+  std::vector<PatchFeature> features_; ///< of the contact at hand
 };
 
 /// Bonds to a wall, a batch at a time.
