@@ -38,6 +38,7 @@ dem::NumbersOf<State> numbers_of(State& s)
   auto& w = s.work_volume;
   dem::NumbersOf<State> all{{"pressure [Pa]", &s.pressure},
                             {"pressure of the next window [Pa]", &s.next_pressure},
+                            {"pressure of its own forces [Pa]", &s.own_pressure},
                             {"time step [s]", &s.dt},
                             {"window of its own forces [s]", &s.window},
                             {"time since they kicked [s]", &s.since},
@@ -70,6 +71,8 @@ dem::NumbersOf<Limit> subcycle_numbers(Limit& limit)
 {
   return {{"limit of the subcycle [-]", &limit}};
 }
+
+constexpr double largest_window = 0.7; // of the subcycle times the largest frequency [-]
 
 constexpr std::size_t nodal_columns = 4; // x, y, z and a fourth number for alignment
 
@@ -144,21 +147,18 @@ void MembraneStructure::restore_masses()
   motion_.set_masses(motion_.membrane().masses());
 }
 
-/// Own forces change little while a node swings on the particles that it touches: a window of
-/// at most half of the membrane's own limit 2/omega, and of at most half of the shortest period
-/// of a node between particles that are held, so that no node keeps pace with the impulses.
+/// As for the far field: a window of at most 0.7 over the largest frequency of a node between
+/// particles that are held. Four steps, at 2.1, give an energy error of 9e-3 in
+/// `triaxial_small`, and the pressure on the particles swings by a third; one step 7e-5.
 void MembraneStructure::choose_subcycle(double dt, std::span<const double> stiffness,
                                         double longest, std::size_t most)
 {
   const Eigen::ArrayXd k = motion_.membrane().stiffness_bound(motion_.state().x);
   const Eigen::ArrayXd& m = motion_.state().m;
-  double own2 = 0.0, held2 = 0.0;
-  for (Eigen::Index a = 0; a < k.size(); ++a) {
-    own2 = std::max(own2, k[a] / m[a]);
-    held2 = std::max(held2, (k[a] + stiffness[static_cast<std::size_t>(a)]) / m[a]);
-  }
-  double window = std::min(1.0 / std::sqrt(own2), dem::pi / std::sqrt(held2));
-  if (damping() == 0.0) window = std::min(window, longest); // nothing stops a resonance
+  double omega2 = 0.0;
+  for (Eigen::Index a = 0; a < k.size(); ++a)
+    omega2 = std::max(omega2, (k[a] + stiffness[static_cast<std::size_t>(a)]) / m[a]);
+  const double window = std::min(largest_window / std::sqrt(omega2), longest);
   subcycle_limit_ = window / dt;
   motion_.set_subcycle(static_cast<std::size_t>(
       std::clamp(std::floor(subcycle_limit_), 1.0, static_cast<double>(most))));

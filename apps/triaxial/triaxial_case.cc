@@ -224,6 +224,7 @@ void complete_membrane(CaseFile& file, TriaxialCase& c)
                     " MPa at this thickness");
   c.tube = fem::Tube::with_node_distance(0.5 * c.specimen.diameter, -c.specimen.height,
                                          c.specimen.height, m.node_distance);
+  c.tube.radius /= std::cos(dem::pi / c.tube.n_around); // its faces enclose the specimen
   const double smallest = c.specimen.specimen.sizes.smallest() * c.specimen.S;
   if (c.tube.node_distance() > 1.02 * smallest) // whole numbers of triangles
     file.refuse("Membrane", "node distance",

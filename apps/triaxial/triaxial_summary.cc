@@ -96,8 +96,9 @@ void TriaxialExtremes::add(const coupling::TriaxialRecord& r)
   volumetric_strain = r.middle.volumetric;
   const double F = r.F_top + r.F_bottom;
   if (!(q > 0.0) || !(F > 0.0)) return;
-  if (std::abs(r.whole.q()) > 0.1 * q)
-    raise(platen_difference, 2.0 * (r.F_top - r.F_bottom) / F * r.whole.axial() / q);
+  const double reference = std::max(q, r.cell_pressure);
+  if (!r.is_approach)
+    raise(platen_difference, 2.0 * (r.F_top - r.F_bottom) / F * r.whole.axial() / reference);
   own_load = (std::abs(r.membrane.axial) + std::abs(r.membrane.hoop)) / q;
 }
 

@@ -16,6 +16,7 @@ dem::NumbersOf<State> numbers_of(State& s)
       {"height [m]", &s.height},
       {"cell pressure [Pa]", &s.pressure},
       {"axial stress [Pa]", &s.axial},
+      {"velocity by the integral of the servo [m/s]", &s.servo_v},
       {"axial strain of the middle third [-]", &s.middle.axial},
       {"lateral strain of the middle third [-]", &s.middle.lateral},
       {"volumetric strain of the middle third [-]", &s.middle.volumetric},

@@ -25,6 +25,7 @@ constexpr std::size_t steps_held = 2000; ///< after an approach
 /// Axial stress in extension below which the platens count as lifted off, over the cell
 /// pressure.
 constexpr double lifted_off = 0.01;
+constexpr double transits_of_servo = 4.0; ///< of a wave, in the integral of the servo
 constexpr std::size_t steps_between_strains = 100;
 /// Largest stretch of a membrane: rubber tears at some six, and the springs of the triangles
 /// no longer describe it long before [-].
@@ -169,10 +170,16 @@ void TriaxialTest::control(double rate)
 
   double v = -0.5 * axial.rate * s.height; // towards the specimen
   if (holds_axial) {
-    // The platens as dampers with the impedance of the specimen: no wave comes back.
+    // The platens as dampers with the impedance of the specimen, so that no wave comes back;
+    // an integral, over some transits of a wave, takes the error that a ramp leaves.
     const double most = rate_limit_factor * 0.5 * full_rate(soil(s.axial)) * s.height;
-    v = std::clamp((held - platen_stress()) / (2.0 * s.density * wave_speed()), -most,
-                   most);
+    const double error = (held - platen_stress()) / (2.0 * s.density * wave_speed());
+    v = error + s.servo_v;
+    if (std::abs(v) <= most)
+      s.servo_v += error * system_.dt * wave_speed() / (transits_of_servo * s.height);
+    v = std::clamp(v, -most, most);
+  } else {
+    s.servo_v = 0.0;
   }
   bottom_->set_drive(VelocityDrive{v});
   top_->set_drive(VelocityDrive{v});
@@ -325,9 +332,11 @@ TriaxialRecord TriaxialTest::record()
   r.middle = s.middle;
   r.membrane = membrane_record();
   r.cell_pressure = s.pressure;
-  const auto n = static_cast<double>(std::max<std::size_t>(s.n_sum, 1));
-  r.F_top = s.top_sum / n;
-  r.F_bottom = s.bottom_sum / n;
+  const auto mean = [&](double sum, const RigidPlaten& platen) {
+    return s.n_sum > 0 ? sum / static_cast<double>(s.n_sum) : -platen.motion().load.f;
+  };
+  r.F_top = mean(s.top_sum, *top_);
+  r.F_bottom = mean(s.bottom_sum, *bottom_);
   const double axial = 0.5 * (r.F_top + r.F_bottom) / area();
   r.whole = soil(axial, size_0(), r.membrane.hoop);
   const Vec3& of_stage = s.active.size_0;
@@ -344,8 +353,12 @@ TriaxialRecord TriaxialTest::record()
   const double work = r.balance.structures.applied_work;
   s.gross_work += std::abs(work - s.last_work);
   s.last_work = work;
-  const double scale = s.start.assembly.stored() + s.gross_work;
-  r.energy_error = scale > 0.0 ? unexplained(r.balance, s.start) / scale : 0.0;
+  // At first the work is next to nothing: an error counts against what the specimen stores
+  // under the reference pressure.
+  const double p_ref = control_.reference_pressure;
+  const double reference =
+      0.5 * p_ref * p_ref / s.stiffness * geometry_.area * geometry_.height;
+  r.energy_error = unexplained(r.balance, s.start) / (reference + s.gross_work);
   r.interface = system_.balance();
   r.inertial_number =
       dem::inertial_number(full_rate(r.whole), s.mean_diameter, s.grain_density,
@@ -357,7 +370,7 @@ TriaxialRecord TriaxialTest::record()
     s.largest_progress = std::max(s.largest_progress, s.active.progress(soil(s.axial)));
   s.top_sum = s.bottom_sum = s.since_record = 0.0;
   s.n_sum = 0;
-  s.alarm.add(r.energy_error, s.time, s.gross_work, s.start.assembly.stored());
+  s.alarm.add(r.energy_error, s.time, s.gross_work, reference);
   if (!(std::abs(r.energy_error) <= 0.01))
     throw Unstable("the energy balance leaves " + dem::shortest(r.energy_error) +
                    " of the work unexplained (at most 0.01) at step " +

@@ -72,6 +72,7 @@ struct TriaxialState {
   double pressure = 0.0; ///< in the cell [Pa]
   double axial = 0.0;    ///< mean stress of both platens, over some transits of a wave [Pa]
   SpecimenStrain middle; ///< at the last reading
+  double servo_v = 0.0;  ///< velocity of the platens by the integral of the servo [m/s]
   double since_record = 0.0; ///< controlled strain [-]
   double largest_progress = 0.0;
   double top_sum = 0.0, bottom_sum = 0.0; ///< of forces since the last record [N]

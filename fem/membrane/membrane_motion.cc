@@ -9,7 +9,7 @@ namespace mergel::fem {
 namespace {
 
 /// Windows after which the work of the pressure is added: it changes little in these.
-constexpr std::size_t windows_between_volumes = 50;
+constexpr std::size_t windows_between_volumes = 20;
 
 NodeLanes load(const NodalField& field, Eigen::Index a)
 {
@@ -148,6 +148,7 @@ void MembraneMotion::step(double dt, std::span<const Vec3> f, std::span<const Ve
     membrane_.finish();
     is_begun_ = false;
     std::swap(now_.f_own, next_f_own_);
+    now_.own_pressure = now_.next_pressure;
     // From rest a window of one step: the saw of the next ones is then even about rest.
     const std::size_t s = now_.since > 0.0 ? now_.subcycle : 1;
     const double window = dt * static_cast<double>(s);
@@ -174,9 +175,9 @@ void MembraneMotion::add_pressure_work()
 {
   const EnclosedVolume now = enclosed();
   now_.pressure_work +=
-      work_on_side(0.5 * (now_.work_pressure + now_.pressure), now_.work_volume, now);
+      work_on_side(0.5 * (now_.work_pressure + now_.own_pressure), now_.work_volume, now);
   now_.work_volume = now;
-  now_.work_pressure = now_.pressure;
+  now_.work_pressure = now_.own_pressure;
   now_.n_volume = 0;
 }
 
@@ -201,11 +202,12 @@ MembraneEnergies MembraneMotion::energies() const
 {
   MembraneEnergies e;
   e.kinetic = 0.5 * (now_.v.square().colwise().sum() * now_.m.transpose()).sum();
-  e.strain = membrane_.strain_energy(now_.x);
+  const NodalField x = now_.x - 0.5 * now_.dt * now_.v; // at n+1/2, as all other terms
+  e.strain = membrane_.strain_energy(x);
   e.load_work = now_.load_work;
   e.pressure_work =
-      now_.pressure_work + work_on_side(0.5 * (now_.work_pressure + now_.pressure),
-                                        now_.work_volume, enclosed());
+      now_.pressure_work + work_on_side(0.5 * (now_.work_pressure + now_.own_pressure),
+                                        now_.work_volume, membrane_.enclosed(x, tube_));
   e.guide_work = now_.guide_work;
   e.damping = now_.damping;
   return e;

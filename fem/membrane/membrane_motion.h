@@ -21,7 +21,7 @@ struct GuidedNodes {
 /// Works and damping are cumulative.
 struct MembraneEnergies {
   double kinetic = 0.0;   ///< at n+1/2
-  double strain = 0.0;    ///< at n+1
+  double strain = 0.0;        ///< at n+1/2
   double load_work = 0.0; ///< done by the nodal forces
   double pressure_work =
       0.0;                 ///< by the pressure: -p dV, less what it does on the end areas
@@ -38,6 +38,7 @@ struct MembraneState {
   Eigen::ArrayXd m;           ///< [kg], > 0
   double pressure = 0.0;      ///< as set last [Pa]
   double next_pressure = 0.0; ///< in the own forces of the window that begins next [Pa]
+  double own_pressure = 0.0; ///< in f_own [Pa]
   double dt = 0.0;            ///< last time step [s]; 0 before the first
   double window = 0.0;        ///< planned at the last kick by f_own [s]
   double since = 0.0;         ///< time since that kick [s]
