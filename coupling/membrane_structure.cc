@@ -38,7 +38,6 @@ dem::NumbersOf<State> numbers_of(State& s)
   auto& w = s.work_volume;
   dem::NumbersOf<State> all{{"pressure [Pa]", &s.pressure},
                             {"pressure of the next window [Pa]", &s.next_pressure},
-                            {"pressure of its own forces [Pa]", &s.own_pressure},
                             {"time step [s]", &s.dt},
                             {"window of its own forces [s]", &s.window},
                             {"time since they kicked [s]", &s.since},

@@ -9,7 +9,7 @@ namespace mergel::fem {
 namespace {
 
 /// Windows after which the work of the pressure is added: it changes little in these.
-constexpr std::size_t windows_between_volumes = 20;
+constexpr std::size_t windows_between_volumes = 50;
 
 NodeLanes load(const NodalField& field, Eigen::Index a)
 {
@@ -144,11 +144,14 @@ void MembraneMotion::step(double dt, std::span<const Vec3> f, std::span<const Ve
   const double dt_kick = now_.dt > 0.0 ? 0.5 * (now_.dt + dt) : dt;
   double window_kick = 0.0;
   if (now_.n_left == 0) {
+    if (now_.since == 0.0) { // from rest
+      add_pressure_work();
+      now_.next_pressure = now_.work_pressure = now_.pressure;
+    }
     if (!is_begun_) membrane_.start(now_.x, now_.next_pressure, next_f_own_);
     membrane_.finish();
     is_begun_ = false;
     std::swap(now_.f_own, next_f_own_);
-    now_.own_pressure = now_.next_pressure;
     // From rest a window of one step: the saw of the next ones is then even about rest.
     const std::size_t s = now_.since > 0.0 ? now_.subcycle : 1;
     const double window = dt * static_cast<double>(s);
@@ -174,10 +177,10 @@ void MembraneMotion::step(double dt, std::span<const Vec3> f, std::span<const Ve
 void MembraneMotion::add_pressure_work()
 {
   const EnclosedVolume now = enclosed();
-  now_.pressure_work +=
-      work_on_side(0.5 * (now_.work_pressure + now_.own_pressure), now_.work_volume, now);
+  const double p = now_.next_pressure; // at the present positions
+  now_.pressure_work += work_on_side(0.5 * (now_.work_pressure + p), now_.work_volume, now);
   now_.work_volume = now;
-  now_.work_pressure = now_.own_pressure;
+  now_.work_pressure = p;
   now_.n_volume = 0;
 }
 
@@ -200,13 +203,18 @@ void MembraneMotion::restore(MembraneState state)
 
 MembraneEnergies MembraneMotion::energies() const
 {
+  // The own forces gave their impulse from half a window before their kick to half a window
+  // after it. Less what lies ahead, the velocity saws no more.
+  const double ahead = 0.5 * (now_.window + now_.dt) - now_.since;
+  const NodalField x = now_.x - 0.5 * now_.dt * now_.v,
+                   v = now_.v -
+                       ahead * ((free_ * now_.f_own).rowwise() * inverse_m_.transpose());
   MembraneEnergies e;
-  e.kinetic = 0.5 * (now_.v.square().colwise().sum() * now_.m.transpose()).sum();
-  const NodalField x = now_.x - 0.5 * now_.dt * now_.v; // at n+1/2, as all other terms
+  e.kinetic = 0.5 * (v.square().colwise().sum() * now_.m.transpose()).sum();
   e.strain = membrane_.strain_energy(x);
   e.load_work = now_.load_work;
   e.pressure_work =
-      now_.pressure_work + work_on_side(0.5 * (now_.work_pressure + now_.own_pressure),
+      now_.pressure_work + work_on_side(0.5 * (now_.work_pressure + now_.next_pressure),
                                         now_.work_volume, membrane_.enclosed(x, tube_));
   e.guide_work = now_.guide_work;
   e.damping = now_.damping;

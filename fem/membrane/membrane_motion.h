@@ -18,10 +18,12 @@ struct GuidedNodes {
 ///
 ///   change of (kinetic + strain) = load_work + pressure_work + guide_work - damping
 ///
-/// Works and damping are cumulative.
+/// All at n+1/2. Works and damping are cumulative. The balance is off by an error of second
+/// order in the window, which stays bounded: for nodes that the loads press on by f, about
+/// (f dt)^2/m where windows have four steps.
 struct MembraneEnergies {
-  double kinetic = 0.0;   ///< at n+1/2
-  double strain = 0.0;        ///< at n+1/2
+  double kinetic = 0.0; ///< of the velocity without its saw in a window
+  double strain = 0.0;
   double load_work = 0.0; ///< done by the nodal forces
   double pressure_work =
       0.0;                 ///< by the pressure: -p dV, less what it does on the end areas
@@ -37,8 +39,7 @@ struct MembraneState {
   NodalField f;               ///< nodal forces of the last step [N]
   Eigen::ArrayXd m;           ///< [kg], > 0
   double pressure = 0.0;      ///< as set last [Pa]
-  double next_pressure = 0.0; ///< in the own forces of the window that begins next [Pa]
-  double own_pressure = 0.0; ///< in f_own [Pa]
+  double next_pressure = 0.0; ///< in the own forces computed last [Pa]
   double dt = 0.0;            ///< last time step [s]; 0 before the first
   double window = 0.0;        ///< planned at the last kick by f_own [s]
   double since = 0.0;         ///< time since that kick [s]
@@ -65,7 +66,7 @@ public:
   ///   [m/s]
   void step(double dt, std::span<const Vec3> f, std::span<const Vec3> guided);
 
-  /// From the window after the next kick on [Pa].
+  /// From the window after the next kick on, from rest at once [Pa].
   void set_pressure(double p) { now_.pressure = p; }
   void set_subcycle(std::size_t s) { now_.subcycle = s; }
   /// Move on from rest with these masses [kg], > 0.
