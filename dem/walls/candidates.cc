@@ -56,6 +56,36 @@ double distance(const Vec3& from, const Vec3& to)
   return sqrt(dot(r, r));
 }
 
+/// Whether c is on the side of the particles of the feature that is closest to it: by the mean
+/// normal of the triangles around, weighted with their angles. At the boundary of a wall there
+/// is no wrong side.
+/// Source: Baerentzen and Aanaes (2005), IEEE Trans. Vis. Comput. Graph. 11, 243.
+bool is_in_front(const Wall& wall, int t, const ClosestFeature& at, const Vec3& c)
+{
+  using On = ClosestFeature::On;
+  const WallTopology& topo = wall.topology;
+  Vec3 n = normal(wall, t);
+  if (at.on == On::edge) {
+    const int other = topo.across[uz(t)][uz(at.which)];
+    if (other < 0) return true;
+    n += normal(wall, other);
+  } else if (at.on == On::corner) {
+    const int node = topo.triangles[uz(t)][uz(at.which)];
+    n.setZero();
+    for (const int around : topo.around[uz(node)]) {
+      const Triangle& k = topo.triangles[uz(around)];
+      const int here = k[0] == node ? 0 : k[1] == node ? 1 : 2;
+      if (topo.across[uz(around)][uz(here)] < 0 ||
+          topo.across[uz(around)][uz((here + 2) % 3)] < 0)
+        return true;
+      const Vec3 a = wall.x[uz(k[uz((here + 1) % 3)])] - wall.x[uz(node)],
+                 b = wall.x[uz(k[uz((here + 2) % 3)])] - wall.x[uz(node)];
+      n += std::atan2(a.cross(b).norm(), a.dot(b)) * normal(wall, around);
+    }
+  }
+  return (c - at.point).dot(n) > 0.0;
+}
+
 Vec3 closest_point_of_wall(const Wall& wall, const std::vector<int>& triangles,
                            const Vec3& c, Anchor& anchor)
 {
@@ -203,11 +233,7 @@ void find_patch_features(const Wall& wall, const ListedCandidate& candidate,
     if (d >= particle.R + reach) continue;
     if (d < nearest) {
       nearest = d;
-      // At a boundary edge of the wall there is no wrong side.
-      const bool has_sides = at.on == ClosestFeature::On::face ||
-                             (at.on == ClosestFeature::On::edge &&
-                              wall.topology.across[uz(t)][uz(at.which)] >= 0);
-      is_inside = !has_sides || height > 0.0;
+      is_inside = is_in_front(wall, t, at, particle.x);
     }
     points.add(t);
   }
