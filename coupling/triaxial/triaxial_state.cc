@@ -24,6 +24,7 @@ dem::NumbersOf<State> numbers_of(State& s)
       {"largest progress of the stage [-]", &s.largest_progress},
       {"sum of forces on the upper platen since the record [N]", &s.top_sum},
       {"sum of forces on the lower platen since the record [N]", &s.bottom_sum},
+      {"sum of the cell pressure since the record [Pa]", &s.pressure_sum},
       {"gross work [J]", &s.gross_work},
       {"work at the record [J]", &s.last_work},
       {"largest strain rate [1/s]", &s.largest_rate},

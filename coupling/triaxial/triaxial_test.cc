@@ -103,16 +103,15 @@ Vec3 TriaxialTest::size_0() const
   return {width, width, geometry_.height};
 }
 
-SoilState TriaxialTest::soil(double axial_stress, const Vec3& size_0, double hoop) const
+SoilState TriaxialTest::soil(double axial_stress, double lateral, const Vec3& size_0) const
 {
-  const double lateral = state_.pressure + hoop;
   return dem::soil_state({-lateral, -lateral, -axial_stress}, size(), size_0);
 }
 
 SoilState TriaxialTest::soil(double axial_stress) const
 {
   const Vec3& of_stage = state_.active.size_0;
-  return soil(axial_stress, of_stage.isZero() ? size_0() : of_stage, 0.0);
+  return soil(axial_stress, state_.pressure, of_stage.isZero() ? size_0() : of_stage);
 }
 
 /// Mean of both platens in the last step [Pa].
@@ -227,6 +226,7 @@ void TriaxialTest::step()
   s.axial += std::min(1.0, dt / window) * (platen_stress() - s.axial);
   s.bottom_sum -= bottom_->motion().load.f;
   s.top_sum -= top_->motion().load.f;
+  s.pressure_sum += s.pressure;
   ++s.n_sum;
   if (system_.n_steps % steps_between_strains == 0) read_strain();
   if (s.active.is_approaching) approach(rate);
@@ -286,7 +286,7 @@ dem::Outcome TriaxialTest::outcome() const
     if (s.largest_progress > 0.05 && fallen > control_.reversal * s.largest_progress)
       return dem::Outcome::reversed;
   }
-  return soil(s.axial, size_0(), 0.0).largest_strain() > control_.strain_limit
+  return soil(s.axial, s.pressure, size_0()).largest_strain() > control_.strain_limit
              ? dem::Outcome::strain_limit_reached
              : dem::Outcome::goes_on;
 }
@@ -331,18 +331,19 @@ TriaxialRecord TriaxialTest::record()
   r.is_approach = s.active.is_approaching;
   r.middle = s.middle;
   r.membrane = membrane_record();
-  r.cell_pressure = s.pressure;
-  const auto mean = [&](double sum, const RigidPlaten& platen) {
-    return s.n_sum > 0 ? sum / static_cast<double>(s.n_sum) : -platen.motion().load.f;
+  const auto mean = [&](double sum, double last) {
+    return s.n_sum > 0 ? sum / static_cast<double>(s.n_sum) : last;
   };
-  r.F_top = mean(s.top_sum, *top_);
-  r.F_bottom = mean(s.bottom_sum, *bottom_);
+  r.F_top = mean(s.top_sum, -top_->motion().load.f);
+  r.F_bottom = mean(s.bottom_sum, -bottom_->motion().load.f);
+  r.cell_pressure = mean(s.pressure_sum, s.pressure);
   const double axial = 0.5 * (r.F_top + r.F_bottom) / area();
-  r.whole = soil(axial, size_0(), r.membrane.hoop);
+  const double lateral = r.cell_pressure + r.membrane.hoop;
+  r.whole = soil(axial, lateral, size_0());
   const Vec3& of_stage = s.active.size_0;
-  r.of_stage = soil(axial, of_stage.isZero() ? size_0() : of_stage, r.membrane.hoop);
+  r.of_stage = soil(axial, lateral, of_stage.isZero() ? size_0() : of_stage);
   r.controlled_strain = s.active.controlled_strain(r.of_stage);
-  r.q_raw = axial + r.membrane.axial - s.pressure;
+  r.q_raw = axial + r.membrane.axial - r.cell_pressure;
   r.tilt = std::acos(std::clamp(-top_->axis().z(), -1.0, 1.0));
   r.void_ratio = (1.0 + geometry_.void_ratio) * (1.0 - s.middle.volumetric) - 1.0;
   r.broken = a.comm.global_sum(a.losses.broken);
@@ -368,7 +369,7 @@ TriaxialRecord TriaxialTest::record()
   r.stable_step = system_.stable_step.limit;
   if (!s.active.is_approaching)
     s.largest_progress = std::max(s.largest_progress, s.active.progress(soil(s.axial)));
-  s.top_sum = s.bottom_sum = s.since_record = 0.0;
+  s.top_sum = s.bottom_sum = s.pressure_sum = s.since_record = 0.0;
   s.n_sum = 0;
   s.alarm.add(r.energy_error, s.time, s.gross_work, reference);
   if (!(std::abs(r.energy_error) <= 0.01))

@@ -76,6 +76,7 @@ struct TriaxialState {
   double since_record = 0.0; ///< controlled strain [-]
   double largest_progress = 0.0;
   double top_sum = 0.0, bottom_sum = 0.0; ///< of forces since the last record [N]
+  double pressure_sum = 0.0;              ///< the same of the cell pressure [Pa]
   std::size_t n_sum = 0;
   double gross_work = 0.0, last_work = 0.0; ///< of platens and pressure [J]
   double largest_rate = 0.0;                ///< [1/s]
@@ -125,7 +126,7 @@ private:
   dem::Vec3 size_0() const;
   double platen_stress() const;
   dem::SoilState soil(double axial_stress) const;
-  dem::SoilState soil(double axial_stress, const dem::Vec3& size_0, double hoop) const;
+  dem::SoilState soil(double axial_stress, double lateral, const dem::Vec3& size_0) const;
   double full_rate(const dem::SoilState& now) const;
   double wave_speed() const;
   void control(double rate);
