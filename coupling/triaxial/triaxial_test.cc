@@ -344,6 +344,11 @@ TriaxialRecord TriaxialTest::record()
   r.of_stage = soil(axial, lateral, of_stage.isZero() ? size_0() : of_stage);
   r.controlled_strain = s.active.controlled_strain(r.of_stage);
   r.q_raw = axial + r.membrane.axial - r.cell_pressure;
+  const double z = geometry_.z_bottom + bottom_->motion().travel;
+  const dem::Mat3 sigma =
+      dem::slab_stress(a, z + s.height / 3.0, z + 2.0 * s.height / 3.0, area());
+  r.middle_axial = -sigma(2, 2);
+  r.middle_lateral = -0.5 * (sigma(0, 0) + sigma(1, 1));
   r.tilt = std::acos(std::clamp(-top_->axis().z(), -1.0, 1.0));
   r.void_ratio = (1.0 + geometry_.void_ratio) * (1.0 - s.middle.volumetric) - 1.0;
   r.broken = a.comm.global_sum(a.losses.broken);

@@ -47,12 +47,13 @@ struct TriaxialRecord {
   dem::SoilState whole; ///< axial strain of the platens, lateral one of the middle third
   dem::SoilState of_stage;
   double controlled_strain = 0.0;
-  SpecimenStrain middle;              ///< of the middle third
-  double cell_pressure = 0.0;         ///< as applied [Pa]
-  double q_raw = 0.0;                 ///< with what the membrane carries [Pa]
-  double F_top = 0.0, F_bottom = 0.0; ///< of the particles on the platens [N]
-  double tilt = 0.0;                  ///< of the upper platen [rad]
-  double void_ratio = 0.0;            ///< of the middle third [-]
+  SpecimenStrain middle;                           ///< of the middle third
+  double cell_pressure = 0.0;                      ///< as applied [Pa]
+  double middle_axial = 0.0, middle_lateral = 0.0; ///< stress of the middle third [Pa]
+  double q_raw = 0.0;                              ///< with what the membrane carries [Pa]
+  double F_top = 0.0, F_bottom = 0.0;              ///< of the particles on the platens [N]
+  double tilt = 0.0;                               ///< of the upper platen [rad]
+  double void_ratio = 0.0;                         ///< of the middle third [-]
   MembraneRecord membrane;
   std::size_t broken = 0;
   std::array<std::size_t, dem::n_break_modes> broken_by{};

@@ -1,5 +1,6 @@
 #include "dem/assembly/averages.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mergel::dem {
@@ -131,6 +132,60 @@ CellAverages cell_averages(const Assembly& assembly)
   a.porosity = 1.0 - solid;
   a.void_ratio = solid > 0.0 ? (1.0 - solid) / solid : 0.0;
   return a;
+}
+
+namespace {
+
+/// Share of a branch between two heights.
+double share_between(double z_from, double z_to, double z_low, double z_high)
+{
+  const auto [low, high] = std::minmax(z_from, z_to);
+  const double inside = std::min(high, z_high) - std::max(low, z_low);
+  if (high - low > 0.0) return std::clamp(inside / (high - low), 0.0, 1.0);
+  return inside >= 0.0 ? 1.0 : 0.0;
+}
+
+} // namespace
+
+Mat3 slab_stress(const Assembly& assembly, double z_low, double z_high, double area)
+{
+  const Particles& p = assembly.particles;
+  TensorSum virial;
+  const auto add_force = [&](const Vec3& from, const Vec3& r, const Vec3& F) {
+    const double share = share_between(from.z(), from.z() + r.z(), z_low, z_high);
+    if (share > 0.0) add(virial, share * F * r.transpose());
+  };
+  const auto add_contact = [&](const Pair& q, const Vec3& f_s) {
+    const double f_n =
+        read_contact(q, f_s, p, assembly.cell, assembly.material.contact).f_n;
+    if (f_n == 0.0) return;
+    const Branch b(assembly, q);
+    add_force(p.state[q.i].x, b.r, f_s - f_n * b.n());
+  };
+  for (std::size_t k = 0; k < assembly.bonds.size(); ++k) {
+    const Pair& q = assembly.bonds.pairs[k];
+    if (!p.owns(q.i)) continue;
+    if (assembly.bonds.intact(k) > 0.0) {
+      const Branch b(assembly, q);
+      const BondReading bond =
+          read_bond(assembly.bonds, k, p, assembly.cell, assembly.material.bond);
+      add_force(p.state[q.i].x, b.r, bond.N * b.n() + bond.V);
+    }
+    add_contact(q, contact_shear_of(assembly.bonds, k));
+  }
+  for (std::size_t c = 0; c < assembly.contacts.pairs.size(); ++c)
+    if (p.owns(assembly.contacts.pairs[c].i))
+      add_contact(assembly.contacts.pairs[c], assembly.contacts.shear[c].f_s);
+  for (const Wall& wall : assembly.walls)
+    for (const WallContactForce& c : wall.contact_forces) {
+      const Vec3& x = p.state[c.particle].x;
+      add_force(x, c.point - x, c.f);
+    }
+  ExactReduction sums;
+  list(sums, virial);
+  sums.run(assembly.comm);
+  const Mat3 sigma = value(virial) / (area * (z_high - z_low));
+  return 0.5 * (sigma + sigma.transpose());
 }
 
 std::vector<Mat3> particle_stresses(const Assembly& assembly)

@@ -30,6 +30,13 @@ struct CellAverages {
 };
 CellAverages cell_averages(const Assembly& assembly);
 
+/// Stress of a specimen between two heights [Pa], tension positive, symmetric part: Love's sum
+/// F (x) r over all branches, from centre to centre and from a centre to the point of a
+/// triangulated wall, each with the share of its height between z_low and z_high, divided by
+/// area times height. Collective.
+/// @param area of the cross-section [m^2]
+Mat3 slab_stress(const Assembly& assembly, double z_low, double z_high, double area);
+
 /// Stress of each particle of a gathered assembly [Pa], tension positive: symmetric part of
 /// Love's sum F (x) (x_c - x_i) over its contacts, F on the particle, divided by its share
 /// v/(1 - n) of the cell, v the sphere volume. The mean weighted with these shares is the

@@ -95,6 +95,7 @@ struct WallBond {
 
 /// Force of one contact or bond between a particle and the wall in the last step.
 struct WallContactForce {
+  Index particle;
   Vec3 f;        ///< on the particle [N]
   Vec3 point, v; ///< position and velocity of the wall where it acts [m], [m/s]
 };

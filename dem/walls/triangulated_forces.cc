@@ -107,15 +107,16 @@ struct WallStep {
     add_row(load.f.data(), F);
     add_row(load.t.data(), M);
     nodes.add(triangle(t), weight, -F);
-    wall.contact_forces.push_back({vec3(F), vec3(x), vec3(v)});
+    wall.contact_forces.push_back({particle, vec3(F), vec3(x), vec3(v)});
   }
 
   /// Where a force acts on a particle, its opposite acts on the wall.
   /// @param v of the wall there
-  void add_to_wall(const Vec3& force, const PatchFeature& where, const Vec3& v)
+  void add_to_wall(Index particle, const Vec3& force, const PatchFeature& where,
+                   const Vec3& v)
   {
     nodes.add(triangle(where.at.triangle), row_of(where.at.weight), row_of(-force));
-    wall.contact_forces.push_back({force, where.point, v});
+    wall.contact_forces.push_back({particle, force, where.point, v});
   }
 };
 
@@ -191,7 +192,7 @@ private:
     const Vec3 f = add_wall_contact(
         law_, {only.n, only.distance - particle.R, only.point, v}, step_.dt, particle,
         step_.p.load[contact.particle], contact, step_.losses);
-    step_.add_to_wall(f, only, v);
+    step_.add_to_wall(contact.particle, f, only, v);
   }
 
   /// Normal forces of all features, each along its own normal. Their resultant decides on the
@@ -234,7 +235,7 @@ private:
       Vec3 force = -f.sign * f_n * f.n;
       if (f.sign > 0.0) force += f_n / pressing * contact.f_s;
       load.f += force;
-      step_.add_to_wall(force, f, at(wall.v, wall.topology, f.at));
+      step_.add_to_wall(contact.particle, force, f, at(wall.v, wall.topology, f.at));
     }
   }
 
