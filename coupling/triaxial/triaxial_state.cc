@@ -30,7 +30,7 @@ dem::NumbersOf<State> numbers_of(State& s)
       {"largest strain rate [1/s]", &s.largest_rate},
       {"stiffness before the test [Pa]", &s.stiffness},
       {"density of the rock [kg/m3]", &s.density},
-      {"density of the particles [kg/m3]", &s.grain_density},
+      {"density of the particles [kg/m3]", &s.particle_density},
       {"mean diameter of the particles [m]", &s.mean_diameter},
       {"enclosed volume before the test [m3]", &s.volume_0},
       {"start: kinetic energy of the structures [J]", &e.kinetic},

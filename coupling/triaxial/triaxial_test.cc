@@ -53,7 +53,7 @@ TriaxialTest::TriaxialTest(const TriaxialControl& control, const SpecimenGeometr
   const double volume = geometry_.area * geometry_.height;
   state_.height = geometry_.height;
   state_.mean_diameter = dV / V;
-  state_.grain_density = m / V;
+  state_.particle_density = m / V;
   state_.density = m / volume;
   state_.stiffness = dem::affine_stiffness(a, volume).z();
   require(state_.stiffness > 0.0,
@@ -133,7 +133,7 @@ double TriaxialTest::full_rate(const SoilState& now) const
   const double p = std::max(std::abs(now.p()), control_.reference_pressure);
   return std::min(2.0 * v / state_.height,
                   control_.inertial_number /
-                      (state_.mean_diameter * std::sqrt(state_.grain_density / p)));
+                      (state_.mean_diameter * std::sqrt(state_.particle_density / p)));
 }
 
 void TriaxialTest::begin_stage(std::size_t stage)
@@ -367,7 +367,7 @@ TriaxialRecord TriaxialTest::record()
   r.energy_error = unexplained(r.balance, s.start) / (reference + s.gross_work);
   r.interface = system_.balance();
   r.inertial_number =
-      dem::inertial_number(full_rate(r.whole), s.mean_diameter, s.grain_density,
+      dem::inertial_number(full_rate(r.whole), s.mean_diameter, s.particle_density,
                            std::max(std::abs(r.whole.p()), control_.reference_pressure));
   r.unbalanced = system_.unbalanced();
   r.time_step = system_.dt;
