@@ -103,11 +103,18 @@ Vec3 closest_point_of_wall(const Wall& wall, const std::vector<int>& triangles,
 }
 
 /// Finds the features of a patch at which the distance of its points to c is stationary.
+///
+/// A feature counts 1 less the number of separate ways down from it. Whether the distance
+/// falls from a corner along an edge has the same bits in all triangles, and whether it falls
+/// from an edge into a triangle is asked in one way. The sign of a face follows from these
+/// answers alone. So each triangle counts 1 in all, and the signs of a flat patch sum to 1
+/// also where round-off decides.
 class StationaryPoints {
 public:
-  StationaryPoints(const Wall& wall, const ParticleState& particle, double reach,
+  /// @param beyond distance at which a feature touches [m]
+  StationaryPoints(const Wall& wall, const Vec3& c, double beyond,
                    std::vector<PatchFeature>& found)
-      : wall_(wall), c_(particle.x), beyond_(particle.R + reach), found_(found)
+      : wall_(wall), c_(c), beyond_(beyond), found_(found)
   {
   }
 
@@ -115,12 +122,25 @@ public:
   void add(int t)
   {
     const Triangle& k = wall_.topology.triangles[uz(t)];
-    const ClosestFeature at = closest_on(wall_, t, c_);
-    if (at.on == ClosestFeature::On::face) add({t, at.weight}, at.point, 1.0);
+    const TriangleRegions<double> regions = regions_of(t);
+    const std::array<bool, 3> inwards = falls_inwards(regions);
+    std::array<bool, 3> ahead, back; // along edge e, from its first and its last corner
+    for (std::size_t e = 0; e < 3; ++e) {
+      ahead[e] = falls(k[e], k[(e + 1) % 3]);
+      back[e] = falls(k[(e + 1) % 3], k[e]);
+    }
+    int sign = 1;
+    for (std::size_t e = 0; e < 3; ++e) {
+      sign += ahead[e] && back[e] && inwards[e];
+      sign -= ahead[e] && back[(e + 2) % 3];
+    }
+    if (sign != 0) {
+      const TrianglePoint<double> face = point_of_face(regions);
+      add({t, vec3(face.weight)}, vec3(face.x), sign);
+    }
     for (int e = 0; e < 3; ++e) {
-      const int other = wall_.topology.across[uz(t)][uz(e)];
-      if (other < 0 || t < other) add_edge(t, e, other);
-      if (is_first_around(t, k[uz(e)])) add_corner(t, e);
+      if (ahead[uz(e)] && back[uz(e)]) add_edge(t, e, inwards[uz(e)]);
+      add_corner(t, e);
     }
   }
 
@@ -130,40 +150,54 @@ private:
     return wall_.x[uz(wall_.topology.triangles[uz(t)][uz(k % 3)])];
   }
 
-  void add(const Anchor& at, const Vec3& point, double sign)
+  TriangleRegions<double> regions_of(int t) const
+  {
+    return {triple(c_), triple(corner(t, 0)), triple(corner(t, 1)), triple(corner(t, 2))};
+  }
+
+  void add(const Anchor& at, const Vec3& point, int sign)
   {
     const double d = distance(c_, point), overlap = beyond_ - d;
-    if (overlap > 0.0)
-      found_.push_back({at, point, (point - c_) * (1.0 / d), d, overlap, sign});
+    if (overlap <= 0.0) return; // one that is not a number is found by the exact sums
+    found_.push_back({at, point, (point - c_) * (1.0 / d), d, overlap, double(sign)});
   }
 
-  /// Whether the distance falls from edge e of the triangle t into the triangle.
-  bool falls_into(int t, int e) const
+  bool touches(const Vec3& point) const
   {
-    const Vec3 &a = corner(t, e), &b = corner(t, e + 1), &d = corner(t, e + 2);
-    const Vec3 ab = b - a, n = ab.cross(d - a);
-    return (c_ - a).dot(n.cross(ab)) > 0.0;
+    return (point - c_).squaredNorm() < beyond_ * beyond_;
   }
 
-  /// A least distance across a ridge counts once; a largest one across a valley makes a
-  /// saddle, and counts against the two sides.
-  void add_edge(int t, int e, int other)
+  /// Whether the distance falls from a node towards another.
+  bool falls(int from, int to) const
   {
+    const Vec3& x = wall_.x[uz(from)];
+    return (c_ - x).dot(wall_.x[uz(to)] - x) > 0.0;
+  }
+
+  /// Whether the distance falls from each edge into the triangle.
+  static std::array<bool, 3> falls_inwards(const TriangleRegions<double>& r)
+  {
+    return {r.vd > 0.0, r.va > 0.0, r.vb > 0.0};
+  }
+
+  /// An edge with the foot of c on it: along it the distance is least. Across a ridge it is
+  /// least too, across a valley largest: a saddle.
+  void add_edge(int t, int e, bool falls_here)
+  {
+    const int other = wall_.topology.across[uz(t)][uz(e)];
+    if (other >= 0 && other < t) return;
     const Vec3 &a = corner(t, e), &b = corner(t, e + 1);
     const Vec3 ab = b - a;
-    const double from_a = (c_ - a).dot(ab), length2 = ab.squaredNorm();
-    if (from_a <= 0.0 || (c_ - b).dot(ab) >= 0.0) return;
-    const double s = from_a / length2;
+    const double s = (c_ - a).dot(ab) / ab.squaredNorm(); // an edge has a length
     const Vec3 point = a + s * ab;
-    if ((point - c_).squaredNorm() >= beyond_ * beyond_) return;
-    const bool here = falls_into(t, e);
-    bool there = here;
-    if (other >= 0) there = falls_into(other, edge_of(other, t));
-    if (here != there || (other < 0 && here)) return;
+    if (!touches(point)) return;
+    int n_ways = falls_here;
+    if (other >= 0) n_ways += falls_inwards(regions_of(other))[uz(edge_of(other, t))];
+    if (n_ways == 1) return;
     Vec3 weight = Vec3::Zero();
     weight[e] = 1.0 - s;
     weight[(e + 1) % 3] = s;
-    add({t, weight}, point, here ? -1.0 : 1.0);
+    add({t, weight}, point, 1 - n_ways);
   }
 
   int edge_of(int t, int neighbour) const
@@ -172,41 +206,36 @@ private:
     return across[0] == neighbour ? 0 : across[1] == neighbour ? 1 : 2;
   }
 
-  bool is_first_around(int t, int node) const
-  {
-    for (const int other : wall_.topology.around[uz(node)])
-      if (other < t && wall_.topology.patch[uz(other)] == wall_.topology.patch[uz(t)])
-        return false;
-    return true;
-  }
-
-  /// Counts 1 less the number of separate ways down from the corner; 1 where all around it is
-  /// down.
+  /// The triangles of the patch around a corner lie in a ring, or in fans from one edge of the
+  /// patch to another. Each fan has a corner of its own.
   void add_corner(int t, int k)
   {
-    const Vec3& v = corner(t, k);
-    if ((v - c_).squaredNorm() >= beyond_ * beyond_) return;
-    const int node = wall_.topology.triangles[uz(t)][uz(k)];
-    int n_ways = 0; // the edge at which each begins, going around
-    for (const int around : wall_.topology.around[uz(node)]) {
-      if (wall_.topology.patch[uz(around)] != wall_.topology.patch[uz(t)]) continue;
-      const Triangle& tri = wall_.topology.triangles[uz(around)];
-      const int at = tri[0] == node ? 0 : tri[1] == node ? 1 : 2;
-      const bool first = (c_ - v).dot(corner(around, at + 1) - v) > 0.0,
-                 second = (c_ - v).dot(corner(around, at + 2) - v) > 0.0;
-      n_ways += second && !first;
-      const bool begins_at_boundary = wall_.topology.across[uz(around)][uz(at)] < 0;
-      n_ways += begins_at_boundary && first;
+    const WallTopology& topo = wall_.topology;
+    if (!touches(corner(t, k))) return;
+    const int node = topo.triangles[uz(t)][uz(k)];
+    int n_ways = 0, n_fans = 0;
+    for (const int around : topo.around[uz(node)]) {
+      if (topo.patch[uz(around)] != topo.patch[uz(t)]) continue;
+      if (around < t) return; // it has the corner already
+      const Triangle& tri = topo.triangles[uz(around)];
+      const std::size_t at = tri[0] == node ? 0 : tri[1] == node ? 1 : 2;
+      const bool first = falls(node, tri[(at + 1) % 3]),
+                 second = falls(node, tri[(at + 2) % 3]);
+      const bool begins_fan = topo.across[uz(around)][at] < 0;
+      n_fans += begins_fan;
+      // A way is counted at the edge at which it begins, counter-clockwise.
+      n_ways += (second && !first) + (begins_fan && first);
     }
-    if (n_ways == 1) return;
+    const int sign = std::max(n_fans, 1) - n_ways;
+    if (sign == 0) return;
     Vec3 weight = Vec3::Zero();
     weight[k] = 1.0;
-    add({t, weight}, v, 1.0 - n_ways);
+    add({t, weight}, corner(t, k), sign);
   }
 
   const Wall& wall_;
-  const Vec3& c_;
-  double beyond_; ///< distance at which a feature touches [m]
+  const Vec3 c_;
+  const double beyond_;
   std::vector<PatchFeature>& found_;
 };
 
@@ -219,7 +248,7 @@ void find_patch_features(const Wall& wall, const ListedCandidate& candidate,
   found.clear();
   const double reach = activation_gap(wall.material) * particle.S;
   const double moved = candidate.motion(particle, wall_travel);
-  StationaryPoints points(wall, particle, reach, found);
+  StationaryPoints points(wall, particle.x, particle.R + reach, found);
   double nearest = std::numeric_limits<double>::infinity();
   bool is_inside = true;
   for (const auto& [t, clearance] : wall.near_triangles(candidate)) {

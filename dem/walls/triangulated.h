@@ -133,7 +133,8 @@ struct PatchFeature {
   double distance; ///< from c [m]
   double overlap;  ///< R + g_a S - distance, > 0 [m]
   /// 1 for a least or largest distance, -1 for a saddle (an edge at the bottom of a valley), less
-  /// where more ways lead down. All signs of a flat or smooth patch sum to 1.
+  /// where more ways lead down. All signs of a flat or smooth patch sum to 1. A corner at which
+  /// several parts of the patch meet counts once for each.
   double sign;
 };
 
