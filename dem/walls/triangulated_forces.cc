@@ -6,6 +6,9 @@
 #include "dem/walls/triangle.h"
 #include "dem/walls/triangulated.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace mergel::dem {
 
 namespace {
@@ -186,7 +189,8 @@ private:
       return 0;
     });
     if (features_.empty()) return open(c);
-    if (features_.size() > 1) return add_several(contact, particle);
+    if (features_.size() > 1 || features_.front().sign != 1.0)
+      return add_several(contact, particle);
     const PatchFeature& only = features_.front(); // the same bits as in a batch
     const Vec3 v = at(wall.v, wall.topology, only.at);
     const Vec3 f = add_wall_contact(
@@ -195,48 +199,73 @@ private:
     step_.add_to_wall(contact.particle, f, only, v);
   }
 
-  /// Normal forces of all features, each along its own normal. Their resultant decides on the
-  /// one shear force, which acts at the mean point of those that press.
+  /// Normal forces of all features, each along its own normal. Their resultant bounds the one
+  /// shear force, whose spring has the overlap that has their energy.
   void add_several(WallContact& contact, const ParticleState& particle)
   {
     const Wall& wall = step_.wall;
     const ContactSides<double> sides = sides_at_wall(particle.R);
+    const auto& nearest = *std::max_element(
+        features_.begin(), features_.end(),
+        [](const PatchFeature& a, const PatchFeature& b) { return a.overlap < b.overlap; });
+    const double f_nearest = normal_force(law_, sides, nearest.overlap),
+                 e_nearest = contact_energy(law_, sides, nearest.overlap, 0.0);
     Vec3 pressure = Vec3::Zero(), x = pressure, v = pressure;
-    double energy = 0.0, pressing = 0.0, largest = 0.0;
+    double energy = 0.0, pressing = 0.0;
     for (const PatchFeature& f : features_) {
-      const double f_n = normal_force(law_, sides, f.overlap);
-      pressure += f.sign * f_n * f.n;
+      const double f_n = f.sign * normal_force(law_, sides, f.overlap);
+      pressure += f_n * f.n;
       energy += f.sign * contact_energy(law_, sides, f.overlap, 0.0);
-      largest = std::max(largest, f.overlap);
-      if (f.sign < 0.0) continue;
       pressing += f_n;
       x += f_n * f.point;
       v += f_n * at(wall.v, wall.topology, f.at);
     }
-    // A law whose energy grows with a power m of the overlap has f_n = m energy/overlap.
-    const double of_largest = contact_energy(law_, sides, largest, 0.0),
-                 f_largest = normal_force(law_, sides, largest),
-                 m = f_largest * largest / of_largest, size = pressure.norm();
-    x *= 1.0 / pressing;
-    v *= 1.0 / pressing;
-    const double overlap = largest * std::pow(size / f_largest, 1.0 / (m - 1.0));
-    const ContactGeometry mean{size > 0.0 ? Vec3(pressure / size) : features_.front().n,
-                               activation_gap(law_) * particle.S - overlap, x, v};
-    const WallContactStep<double> now = wall_contact_step(
-        law_, end_of(particle), wall_point(mean), triple(contact.f_s), step_.dt);
-    if (now.slip_loss != 0.0) step_.losses.slip.add(now.slip_loss);
-    contact.f_s = vec3(now.f_s);
-    contact.overlap = largest * std::pow(energy / of_largest, 1.0 / m);
+    // What presses in all is at least the force of the nearest feature, but where the particle
+    // bridges several pits: there the nearest one makes up for it.
+    const double all = std::max(pressing, f_nearest), at_nearest = 1.0 - pressing / all;
+    x = x / all + at_nearest * nearest.point;
+    v = v / all + at_nearest * at(wall.v, wall.topology, nearest.at);
+    // The energy of a law grows with a power of the overlap: f_n overlap/energy.
+    const double power = f_nearest * nearest.overlap / e_nearest;
+    const double overlap =
+        nearest.overlap * std::pow(std::abs(energy) / e_nearest, 1.0 / power);
+    if (energy > 0.0) {
+      const double size = pressure.norm();
+      step_shear(contact, particle, overlap, size,
+                 {triple(size > 0.0 ? Vec3(pressure / size) : nearest.n),
+                  activation_gap(law_) * particle.S - overlap, triple(x), triple(v)});
+    } else {
+      open_contact(law_, particle.R, contact, step_.losses);
+      contact.overlap = -overlap;
+    }
 
     Load& load = step_.p.load[contact.particle];
     load.t += (x - particle.x).cross(contact.f_s); // normals pass through the centre
     for (const PatchFeature& f : features_) {
-      const double f_n = normal_force(law_, sides, f.overlap);
-      Vec3 force = -f.sign * f_n * f.n;
-      if (f.sign > 0.0) force += f_n / pressing * contact.f_s;
+      const double f_n = f.sign * normal_force(law_, sides, f.overlap);
+      Vec3 force = f_n / all * contact.f_s - f_n * f.n;
+      if (&f == &nearest) force += at_nearest * contact.f_s;
       load.f += force;
       step_.add_to_wall(contact.particle, force, f, at(wall.v, wall.topology, f.at));
     }
+  }
+
+  /// For one feature this is the contact law.
+  /// @param overlap of the energy of all features [m], > 0
+  /// @param pressure size of their resultant [N]
+  void step_shear(WallContact& contact, const ParticleState& particle, double overlap,
+                  double pressure, const WallPoint<double>& at)
+  {
+    const ContactSides<double> sides = sides_at_wall(particle.R);
+    ContactMotion<double> by =
+        motion_at_wall(end_of(particle), at, triple(contact.f_s), step_.dt);
+    by.du_n = contact.overlap - overlap;
+    Law law = law_;
+    law.mu *= pressure / normal_force(law_, sides, overlap);
+    const ContactStep<double> now = contact_step(law, sides, particle.S, by);
+    if (now.slip_loss != 0.0) step_.losses.slip.add(now.slip_loss);
+    contact.f_s = vec3(now.f_s);
+    contact.overlap = overlap;
   }
 
   void add_batch()

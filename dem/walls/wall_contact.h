@@ -8,6 +8,8 @@
 #include "dem/particles/kinematics.h"
 #include "dem/particles/particles.h"
 
+#include <cmath>
+
 namespace mergel::dem {
 
 /// The point of a rigid body that is closest to the centre of a particle.
@@ -31,7 +33,9 @@ struct WallContact {
   Index particle = 0;
   int wall = 0;            ///< patch of a triangulated wall; 0 for exact surfaces
   Vec3 f_s = Vec3::Zero(); ///< shear force on the particle [N]
-  double overlap = 0.0;    ///< [m]; 0 when open
+  /// [m]; 0 when open. Of several features of a patch, the one that has their energy; negative
+  /// with the energy.
+  double overlap = 0.0;
 };
 
 /// The same as ContactGeometry, for one contact or one per lane.
@@ -59,16 +63,15 @@ struct WallContactStep {
   Real slip_loss;    ///< [J]
 };
 
-/// One step of a contact that is closed, over dt [s]. The arm is R + gap, so forces and
-/// moments balance. In the contact law r = R and L = R.
+/// How the wall moves against a particle over dt [s].
 ///
-/// A particle that slides along a curved wall does not rotate the wall. So the history is
+/// A particle that slides along a curved wall does not rotate the wall. So the history f_s is
 /// not rotated with the contact frame: it is projected onto the present tangent plane and
 /// keeps its length (dem/README.md, History vectors).
-template <IsContactLaw Law, class Real>
-[[gnu::always_inline]] inline WallContactStep<Real>
-wall_contact_step(const Law& law, const End<Real>& particle, const WallPoint<Real>& at,
-                  const Triple<Real>& f_s, double dt)
+template <class Real>
+[[gnu::always_inline]] inline ContactMotion<Real>
+motion_at_wall(const End<Real>& particle, const WallPoint<Real>& at,
+               const Triple<Real>& f_s, double dt)
 {
   const Triple<Real> arm = at.x - particle.x;
   const Triple<Real> v_rel = at.v - particle.v - cross(particle.omega, arm);
@@ -78,12 +81,20 @@ wall_contact_step(const Law& law, const End<Real>& particle, const WallPoint<Rea
   const Real length2 = dot(tangential, tangential), one = Real{} + 1.0;
   const auto has_length = length2 > Real{};
   const Real stretch = sqrt(dot(f_s, f_s) / select(has_length, length2, one));
-  const Triple<Real> f_old = tangential * select(has_length, stretch, one);
+  return {at.gap, v_n * dt, du_s, tangential * select(has_length, stretch, one)};
+}
 
+/// One step of a contact that is closed, over dt [s]. The arm is R + gap, so forces and
+/// moments balance. In the contact law r = R and L = R.
+template <IsContactLaw Law, class Real>
+[[gnu::always_inline]] inline WallContactStep<Real>
+wall_contact_step(const Law& law, const End<Real>& particle, const WallPoint<Real>& at,
+                  const Triple<Real>& f_s, double dt)
+{
   const ContactStep<Real> c = contact_step(law, sides_at_wall(particle.R), particle.S,
-                                           {at.gap, v_n * dt, du_s, f_old});
+                                           motion_at_wall(particle, at, f_s, dt));
   const Triple<Real> F = c.f_s - at.n * c.f_n;
-  return {F, cross(arm, F), c.f_s, c.slip_loss};
+  return {F, cross(at.x - particle.x, F), c.f_s, c.slip_loss};
 }
 
 /// The contact opens, or is open: it loses the energy of its shear force.
@@ -124,10 +135,12 @@ inline EnergySum stored_energy(const std::vector<WallContact>& contacts,
                                const ContactLaw& law, const Particles& p)
 {
   EnergySum e;
-  for (const WallContact& c : contacts)
-    if (c.overlap > 0.0)
-      e.add(contact_energy(law, sides_at_wall(p.state[c.particle].R), c.overlap,
-                           c.f_s.squaredNorm()));
+  for (const WallContact& c : contacts) {
+    if (c.overlap == 0.0) continue;
+    const double size = contact_energy(law, sides_at_wall(p.state[c.particle].R),
+                                       std::abs(c.overlap), c.f_s.squaredNorm());
+    e.add(c.overlap > 0.0 ? size : -size); // without shear force where it is negative
+  }
   return e;
 }
 
