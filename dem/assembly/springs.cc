@@ -1,5 +1,7 @@
 #include "dem/assembly/springs.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 
@@ -76,24 +78,52 @@ void add_wall(Springs& s, const Assembly& a, const Closing& closing, const Rigid
   }
 }
 
+/// Springs along the principal directions of the stiffness of several features of a patch, in
+/// which saddles count against. They act at the nearest feature, where the shear spring is.
+std::vector<WallSpring> principal(const std::vector<WallSpring>& of_features,
+                                  const Eigen::Matrix3d& stiffness)
+{
+  const WallSpring& nearest = *std::min_element(
+      of_features.begin(), of_features.end(),
+      [](const WallSpring& a, const WallSpring& b) { return a.arm < b.arm; });
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(stiffness);
+  std::vector<WallSpring> springs;
+  for (int k = 2; k >= 0; --k) { // the stiffest first
+    WallSpring spring = nearest;
+    spring.k_n = solver.eigenvalues()[k];
+    spring.n = solver.eigenvectors().col(k);
+    if (spring.n.dot(nearest.n) < 0.0) spring.n = -spring.n;
+    if (k < 2) spring.k_s = 0.0;
+    if (spring.k_n > 0.0) springs.push_back(spring);
+  }
+  return springs;
+}
+
 void add_wall(Springs& s, const Assembly& a, const Closing& closing, const Wall& wall)
 {
   const std::size_t number = closing.walls_move
                                  ? static_cast<std::size_t>(&wall - a.walls.data())
                                  : WallSpring::held;
+  std::vector<PatchFeature> features;
   for (std::size_t c = 0; c < wall.contacts.size(); ++c) {
     const ParticleState& b = a.particles.state[wall.contacts[c].particle];
     const double g_a = activation_gap(wall.material) * b.S;
-    const auto near =
-        nearest_point(wall, wall.listed[c], b.x, b.R + g_a + closing.limit * b.S);
-    if (!near) continue;
-    const Vec3 v = b.v - at(wall.v, wall.topology, near->at);
-    const Vec3 n = (near->point - b.x) / near->distance;
-    const double overlap = closing.overlap(g_a - (near->distance - b.R), v.dot(n), b.S);
-    if (!(overlap > 0.0)) continue;
-    const auto k = contact_stiffness(wall.material, sides_at_wall(b.R), overlap);
-    s.walls.push_back(
-        {wall.contacts[c].particle, near->distance, n, k.k_n, k.k_s, number, near->at});
+    find_features_within(wall, wall.listed[c], b.x, b.R + g_a + closing.limit * b.S,
+                         features);
+    Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
+    std::vector<WallSpring> springs; // by feature
+    for (const PatchFeature& f : features) {
+      const Vec3 v = b.v - at(wall.v, wall.topology, f.at);
+      const Vec3 n = (f.point - b.x) / f.distance;
+      const double overlap = closing.overlap(g_a - (f.distance - b.R), v.dot(n), b.S);
+      if (!(overlap > 0.0)) continue;
+      const auto k = contact_stiffness(wall.material, sides_at_wall(b.R), overlap);
+      springs.push_back(
+          {wall.contacts[c].particle, f.distance, n, f.sign * k.k_n, k.k_s, number, f.at});
+      stiffness += f.sign * k.k_n * n * n.transpose();
+    }
+    if (springs.size() > 1) springs = principal(springs, stiffness);
+    s.walls.insert(s.walls.end(), springs.begin(), springs.end());
   }
   for (const WallBond& bond : wall.bonds) {
     if (bond.state.intact == 0.0) continue;

@@ -271,20 +271,16 @@ void find_patch_features(const Wall& wall, const ListedCandidate& candidate,
   if (!is_inside) throw NumericalError("its centre is on the wrong side of a wall");
 }
 
-std::optional<NearestPoint> nearest_point(const Wall& wall,
-                                          const ListedCandidate& candidate, const Vec3& x,
-                                          double reach)
+void find_features_within(const Wall& wall, const ListedCandidate& candidate, const Vec3& x,
+                          double reach, std::vector<PatchFeature>& found)
 {
-  std::optional<NearestPoint> nearest;
-  for (const auto& near : wall.near_triangles(candidate)) {
+  found.clear();
+  StationaryPoints points(wall, x, reach, found);
+  for (const NearTriangle& near : wall.near_triangles(candidate)) {
     const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(near.triangle)][0])];
     if ((x - corner).dot(normal(wall, near.triangle)) > reach) continue; // of its plane
-    const ClosestFeature at = closest_on(wall, near.triangle, x);
-    const double d = (x - at.point).norm();
-    if (d > reach || (nearest && d >= nearest->distance)) continue;
-    nearest = {{near.triangle, at.weight}, at.point, d};
+    points.add(near.triangle);
   }
-  return nearest;
 }
 
 void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double skin,

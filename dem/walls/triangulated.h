@@ -8,7 +8,6 @@
 #include <array>
 #include <concepts>
 #include <limits>
-#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -150,17 +149,9 @@ void find_patch_features(const Wall& wall, const ListedCandidate& candidate,
                          const ParticleState& particle, double wall_travel,
                          std::vector<PatchFeature>& found);
 
-/// The point of the candidate's triangles that is closest to the particle.
-struct NearestPoint {
-  Anchor at;
-  Vec3 point;      ///< [m]
-  double distance; ///< to the centre of the particle [m]
-};
-
-/// Nothing if it is further than `reach` [m] from the centre x.
-std::optional<NearestPoint> nearest_point(const Wall& wall,
-                                          const ListedCandidate& candidate, const Vec3& x,
-                                          double reach);
+/// The same, of all that lie within `reach` [m] of a centre x; an overlap is reach - distance.
+void find_features_within(const Wall& wall, const ListedCandidate& candidate, const Vec3& x,
+                          double reach, std::vector<PatchFeature>& found);
 
 /// Unit normal of a triangle, to the side of the particles.
 Vec3 normal(const Wall& wall, int t);
