@@ -241,34 +241,75 @@ private:
 
 } // namespace
 
+namespace {
+
+/// Calls visit(t) for the candidate's triangles that may be nearer to c than `beyond` [m]:
+/// n_lanes of them are looked at together.
+template <class Visit>
+void visit_touching(const Wall& wall, const ListedCandidate& candidate, const Vec3& c,
+                    double beyond, double moved, Visit&& visit)
+{
+  const double limit = beyond * beyond * (1.0 + 1e-9); // a margin for its round-off
+  int t[n_lanes];
+  int count = 0;
+  const auto look = [&] {
+    Row rows[3][n_lanes];
+    for (int l = 0; l < n_lanes; ++l) {
+      const Triangle& k = wall.topology.triangles[uz(t[l < count ? l : 0])];
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const Vec3& x = wall.x[uz(k[corner])];
+        rows[corner][l] = Row{x.x(), x.y(), x.z(), 0.0};
+      }
+    }
+    Triple<Lanes> x[3];
+    Lanes unused;
+    for (int corner = 0; corner < 3; ++corner)
+      columns(rows[corner], x[corner].x, x[corner].y, x[corner].z, unused);
+    const Triple<Lanes> centre{Lanes{} + c.x(), Lanes{} + c.y(), Lanes{} + c.z()};
+    // Not "near": what is not a number is found by the exact sums.
+    const unsigned far =
+        bits_of(squared_distance(TriangleRegions<Lanes>(centre, x[0], x[1], x[2])) > limit);
+    const int n = count;
+    count = 0;
+    for (int l = 0; l < n; ++l)
+      if (!(far >> l & 1u)) visit(t[l]);
+  };
+  for (const auto& [triangle, clearance] : wall.near_triangles(candidate)) {
+    if (clearance > moved) continue;
+    t[count] = triangle;
+    if (++count == n_lanes) look();
+  }
+  if (count > 0) look();
+}
+
+} // namespace
+
 void find_patch_features(const Wall& wall, const ListedCandidate& candidate,
                          const ParticleState& particle, double wall_travel,
                          std::vector<PatchFeature>& found)
 {
   found.clear();
-  const double reach = activation_gap(wall.material) * particle.S;
-  const double moved = candidate.motion(particle, wall_travel);
-  StationaryPoints points(wall, particle.x, particle.R + reach, found);
-  double nearest = std::numeric_limits<double>::infinity();
-  bool is_inside = true;
-  for (const auto& [t, clearance] : wall.near_triangles(candidate)) {
-    if (clearance > moved) continue;
-    const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(t)][0])];
-    const double height = (particle.x - corner).dot(normal(wall, t));
-    // A bound of the distance to the triangle, with a margin for its round-off.
-    if (height - particle.R >= reach + 1e-6 * particle.R) continue;
-    const ClosestFeature at = closest_on(wall, t, particle.x);
-    const double d = distance(particle.x, at.point);
-    if (d >= particle.R + reach) continue;
-    if (d < nearest) {
-      nearest = d;
-      is_inside = is_in_front(wall, t, at, particle.x);
-    }
-    points.add(t);
-  }
+  const double beyond = particle.R + activation_gap(wall.material) * particle.S;
+  StationaryPoints points(wall, particle.x, beyond, found);
+  int nearest = -1;
+  ClosestFeature at_nearest{};
+  double smallest = std::numeric_limits<double>::infinity();
+  visit_touching(wall, candidate, particle.x, beyond,
+                 candidate.motion(particle, wall_travel), [&](int t) {
+                   const ClosestFeature at = closest_on(wall, t, particle.x);
+                   const double d = distance(particle.x, at.point);
+                   if (d >= beyond) return;
+                   if (d < smallest) {
+                     smallest = d;
+                     nearest = t;
+                     at_nearest = at;
+                   }
+                   points.add(t);
+                 });
   // Only what is in contact is judged: which other triangles were examined depends on the
   // list. No centre gets past a wall without a contact before.
-  if (!is_inside) throw NumericalError("its centre is on the wrong side of a wall");
+  if (nearest >= 0 && !is_in_front(wall, nearest, at_nearest, particle.x))
+    throw NumericalError("its centre is on the wrong side of a wall");
 }
 
 void find_features_within(const Wall& wall, const ListedCandidate& candidate, const Vec3& x,
