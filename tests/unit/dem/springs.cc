@@ -162,3 +162,40 @@ TEST_CASE("What counts for the stable step has the same bits whenever the lists 
   CHECK(were_stale);  // lists that were not complete took part,
   CHECK(is_any_open); // and contacts that are yet to close
 }
+
+TEST_CASE("A particle in a valley of a patch has springs as stiff as its contact",
+          "[unit][dem]")
+{
+  // The height over the edge, which is out of reach in the last.
+  const auto [degrees, height] = GENERATE(table<double, double>(
+      {{2.0, 0.99}, {15.0, 0.99}, {15.0, 1.005}, {29.0, 0.99}, {29.0, 1.02}}));
+  const ContactLaw law = contact(1e8, 2.0, 0.0, g_a);
+  const double rise = std::sin(0.5 * degrees * pi / 180.0);
+  Assembly a;
+  a.material = {unbreakable_bond(), law};
+  a.list = VerletList(g_a, skin);
+  a.particles.add(sphere({0.0, height * R, 0.0}, R));
+  const double side = std::sqrt(1.0 - rise * rise);
+  a.walls.push_back(make_wall({{0, 0, -1}, {0, 0, 1}, {side, rise, 0}, {-side, rise, 0}},
+                              {{0, 1, 2}, {0, 3, 1}}, law));
+  REQUIRE(a.walls[0].topology.n_patches == 1);
+  rebuild_lists(a);
+
+  Eigen::Matrix3d springs = Eigen::Matrix3d::Zero(), contact;
+  for (const WallSpring& k : linear_springs(a, {0.0, false}).walls)
+    springs += k.k_n * k.n * k.n.transpose();
+  const auto force_at = [&](const Vec3& x) -> Vec3 {
+    a.particles.state[0].x = x;
+    clear_loads(a.particles);
+    add_wall_forces(a.walls[0], a.material, 0.0, a.particles, a.losses);
+    return a.particles.load[0].f;
+  };
+  const Vec3 x = a.particles.state[0].x;
+  constexpr double h = 1e-6 * R;
+  for (int d = 0; d < 3; ++d)
+    contact.col(d) =
+        (force_at(x - h * Vec3::Unit(d)) - force_at(x + h * Vec3::Unit(d))) / (2.0 * h);
+  CAPTURE(degrees, height, springs, contact);
+  // What a force adds when it rotates is left out: the overlap over the radius, 3 % at most.
+  CHECK((springs - contact).norm() < 0.04 * contact.norm());
+}
