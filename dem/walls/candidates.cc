@@ -180,8 +180,8 @@ private:
     return {r.vd > 0.0, r.va > 0.0, r.vb > 0.0};
   }
 
-  /// An edge with the foot of c on it: along it the distance is least. Across a ridge it is
-  /// least too, across a valley largest: a saddle.
+  /// An edge with the foot of c on it: along it the distance is smallest. Across a ridge it is
+  /// smallest too, across a valley largest: a saddle.
   void add_edge(int t, int e, bool falls_here)
   {
     const int other = wall_.topology.across[uz(t)][uz(e)];

@@ -25,8 +25,8 @@ inline std::size_t uz(int i)
 /// Edges and corners of a triangulation, and its smooth patches.
 ///
 /// Normals follow the right-hand rule and point to the particles. A fold of more than 30
-/// degrees separates two patches: a particle in such a corner gets a force from each, a
-/// particle at a smaller fold gets one force. At a convex ridge of more than 30 degrees
+/// degrees separates two patches: a particle in such a corner gets a force from each, at
+/// a smaller fold that of one energy. At a convex ridge of more than 30 degrees
 /// both patches act with their full force at the edge: use a rigid wall there
 /// (rigid_wall.h).
 struct WallTopology {
@@ -131,9 +131,9 @@ struct PatchFeature {
   Vec3 n;          ///< unit, from c to the point
   double distance; ///< from c [m]
   double overlap;  ///< R + g_a S - distance, > 0 [m]
-  /// 1 for a least or largest distance, -1 for a saddle (an edge at the bottom of a valley), less
-  /// where more ways lead down. All signs of a flat or smooth patch sum to 1. A corner at which
-  /// several parts of the patch meet counts once for each.
+  /// 1 for a smallest or largest distance, -1 for a saddle (an edge at the bottom of a valley),
+  /// less where more ways lead down. All signs of a flat or smooth patch sum to 1. A corner at
+  /// which several parts of the patch meet counts once for each.
   double sign;
 };
 
