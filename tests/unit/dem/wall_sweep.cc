@@ -205,6 +205,20 @@ TEST_CASE("A centre on the wrong side of a wall stops the run", "[unit][dem]")
   CHECK_THROWS_AS(force_at(wall, {3e-3, 5e-3, -0.9e-3}), mergel::NumericalError);
   CHECK_THROWS_AS(force_at(wall, {5e-3, 5e-3, -0.5e-3}),
                   mergel::NumericalError); // at the edge
+
+  // Behind the tip of a pit, which is nearer than its faces.
+  std::vector<Vec3> x{Vec3::Zero()};
+  std::vector<Triangle> triangles;
+  for (int k = 0; k < 6; ++k) {
+    const double a = k * pi / 3.0;
+    x.push_back({3e-3 * std::cos(a), 3e-3 * std::sin(a), 0.3e-3});
+    triangles.push_back({0, 1 + k, 1 + (k + 1) % 6});
+  }
+  Wall pit = make_wall(x, triangles, law);
+  REQUIRE(pit.topology.n_patches == 1);
+  CHECK_NOTHROW(force_at(pit, {0.0, 0.0, 0.1e-3}));
+  CHECK_THROWS_AS(force_at(pit, {0.0, 0.0, -0.1e-3}), mergel::NumericalError);
+  CHECK_NOTHROW(force_at(pit, {3.01e-3, 0.0, 0.2e-3})); // beside the boundary
 }
 
 TEST_CASE("Triangles that do not form a wall are refused", "[unit][dem]")
