@@ -41,10 +41,11 @@ struct TriangleRegions {
   {
     return (va <= Real{}) & (d4 - d3 >= Real{}) & (d5 - d6 >= Real{});
   }
-  auto at_face() const
+  /// The closest point is on the face, and not so near an edge that round-off decides on it.
+  auto well_inside_face() const
   {
-    return !(at_corner_a() | at_corner_b() | at_corner_d() | at_edge_ab() | at_edge_da() |
-             at_edge_bd());
+    const Real margin = 1e-9 * (va + vb + vd);
+    return (va > margin) & (vb > margin) & (vd > margin);
   }
 
   /// c is on the side to which the normal ab x ad points.

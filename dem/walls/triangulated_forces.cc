@@ -288,7 +288,7 @@ private:
     const Triple<Lanes> r = face.x - b.x;
     const Lanes distance = sqrt(dot(r, r));
     const Lanes gap = distance - b.R, overlap = activation_gap(law_) * b.S - gap;
-    const Mask is_face = regions.at_face(), overlaps = overlap > Lanes{};
+    const Mask is_face = regions.well_inside_face(), overlaps = overlap > Lanes{};
     const Mask is_closed = is_face & overlaps & regions.is_in_front();
 
     const Triple<Lanes>&w = face.weight, v = corners(wall.v, 0) * w.x +
@@ -312,7 +312,7 @@ private:
                   v_rows.of[l]);
       } else if (open_faces >> l & 1u) {
         open(contact_[l]);
-      } else { // at an edge, on the wrong side, or not a number
+      } else { // near an edge, on the wrong side, or not a number
         add_one(contact_[l]);
       }
     }
