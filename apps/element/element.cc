@@ -252,7 +252,7 @@ ElementSummary summary_of(const ElementCase& c, const dem::ElementState& state,
                           const std::vector<dem::ElementRecord>& records, double seconds)
 {
   ElementSummary s;
-  s.stages = analyse(c, outcomes, records);
+  s.stages = analyse(c.stages, c.analysis, outcomes, points_of(records));
   for (const dem::ElementRecord& r : records) {
     s.worst_energy_error = std::max(s.worst_energy_error, std::abs(r.energy_error));
     s.largest_inertial_number = std::max(s.largest_inertial_number, r.inertial_number);

@@ -66,12 +66,7 @@ void declare_motion(CaseFile& file, ElementCase& c)
 void declare_analysis(CaseFile& file, ElementCase& c)
 {
   const auto section = file.section("Analysis");
-  file.number(
-      "secant from", c.secant_from, non_negative,
-      "Strain of the stage at which the secant for moduli and Poisson's ratio starts.");
-  file.number("secant to", c.secant_to, positive, "Strain at which it ends.");
-  file.number("yield offset", c.yield_offset, positive,
-              "Strain by which the secant line is offset for the yield point.");
+  declare(file, c.analysis);
   file.text(
       "critical states", c.critical_text,
       "Results folders of other element runs, separated by blanks: the critical state line "
@@ -162,8 +157,7 @@ void complete(CaseFile& file, ElementCase& c)
   complete(file, motion_keys(c));
   complete(file, c.specimen, c.contact.chosen());
   check_size(file, c);
-  if (c.secant_to <= c.secant_from)
-    file.refuse("Analysis", "secant to", "must be beyond `secant from`");
+  check(file, c.analysis);
 
   complete(file, c.checkpoints);
   file.derive("Loading", "reference pressure", tensile_strength(c.bond.chosen()) / 40.0);

@@ -5,6 +5,7 @@
 #include "apps/case/material_keys.h"
 #include "apps/case/specimen_keys.h"
 #include "apps/element/loading_stages.h"
+#include "apps/element/stage_analysis.h"
 #include "apps/run/checkpoint_scheduler.h"
 #include "dem/element/element_analysis.h"
 #include "dem/element/element_test.h"
@@ -31,8 +32,7 @@ struct ElementCase : dem::ElementControl {
   std::vector<std::string> stage_texts;
 
   // Analysis
-  double secant_from = 1e-4, secant_to = 1e-3; ///< strain [-]
-  double yield_offset = 2e-4;                  ///< strain [-]
+  AnalysisKeys analysis;
   std::string critical_text;
   std::vector<dem::CriticalState> critical_states; ///< final states of other runs
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/element/element_case.h"
+#include "apps/element/stage_analysis.h"
 #include "apps/run/summary.h"
 #include "dem/element/element_analysis.h"
 #include "dem/element/element_test.h"
@@ -36,26 +37,8 @@ private:
   dem::History history_;
 };
 
-/// A result of the analysis: name, SI value and unit.
-struct Finding {
-  std::string name, unit; ///< "Young's modulus", "Pa"
-  double value;
-};
-
-/// Outcome and results of one stage.
-struct StageResult {
-  std::string name;
-  dem::Outcome outcome = dem::Outcome::goes_on;
-  std::optional<std::size_t> broken_in_approach; ///< bonds; none without an approach
-  std::vector<Finding> findings;
-};
-
-/// Results of each stage that was begun. A stage that others resume is analysed with them.
-/// @param outcomes of the stages that were begun
-/// @param records  of these stages, in order
-std::vector<StageResult> analyse(const ElementCase& c,
-                                 const std::vector<dem::Outcome>& outcomes,
-                                 const std::vector<dem::ElementRecord>& records);
+/// What the analysis of the stages needs of the records.
+std::vector<StagePoint> points_of(const std::vector<dem::ElementRecord>& records);
 
 /// The final states of this run and of others, and the line fitted to them, if possible.
 struct CriticalStates {

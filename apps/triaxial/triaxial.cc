@@ -66,7 +66,7 @@ private:
   std::optional<coupling::CoupledSystem> system_;
   std::optional<coupling::TriaxialTest> test_;
   std::optional<TriaxialOutput> output_; ///< on the first rank
-  std::vector<StagePoint> points_;       ///< of all records
+  std::vector<TriaxialPoint> points_;    ///< of all records
   TriaxialExtremes extremes_;
   /// Of stages begun; of the one under way unstable.
   std::vector<dem::Outcome> outcomes_;
@@ -207,13 +207,13 @@ bool TriaxialJob::frame_is_due(bool stage_ends) const
          std::abs(1.0 - test_->state().height / geometry_.height) >= next_frame_;
 }
 
-std::string words(const StagePoint& r)
+std::string words(const TriaxialPoint& r)
 {
   std::ostringstream out;
   out.precision(3);
   out << "cell " << 1e-6 * r.cell_pressure << "  q " << 1e-6 * r.whole.q()
       << " MPa  axial strain " << 100.0 * r.whole.axial_strain() << " %  broken "
-      << r.broken;
+      << r.analysed.broken;
   return out.str();
 }
 

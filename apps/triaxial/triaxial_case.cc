@@ -116,17 +116,6 @@ void declare_motion(CaseFile& file, TriaxialCase& c)
   declare(file, MotionKeys{c.free_rotation, c.step, c.inertia_factor, c.mass_scaling});
 }
 
-void declare_analysis(CaseFile& file, TriaxialCase& c)
-{
-  const auto section = file.section("Analysis");
-  file.number(
-      "secant from", c.secant_from, non_negative,
-      "Strain of the stage at which the secant for moduli and Poisson's ratio starts.");
-  file.number("secant to", c.secant_to, positive, "Strain at which it ends.");
-  file.number("yield offset", c.yield_offset, positive,
-              "Strain by which the secant line is offset for the yield point.");
-}
-
 /// Refuse a stage that the cell cannot do.
 void check_stages(const CaseFile& file, const TriaxialCase& c)
 {
@@ -172,7 +161,10 @@ void declare(CaseFile& file, TriaxialCase& c)
   declare_platens(file, c.platens);
   declare_loading(file, c);
   declare_motion(file, c);
-  declare_analysis(file, c);
+  {
+    const auto section = file.section("Analysis");
+    declare(file, c.analysis);
+  }
   const auto section = file.section("Output");
   file.number("record every", c.record_every, inside(0.0, 0.1),
               "Controlled strain between two lines of history.csv.");
@@ -245,8 +237,7 @@ void complete(CaseFile& file, TriaxialCase& c)
   complete(file, c.specimen, c.material.contact);
   if (c.specimen.upscaling != SpecimenKeys::Upscaling::uniform)
     file.refuse("Specimen", "upscaling", "a triaxial test takes `uniform`");
-  if (c.secant_to <= c.secant_from)
-    file.refuse("Analysis", "secant to", "must be beyond `secant from`");
+  check(file, c.analysis);
   complete(file, c.checkpoints);
   c.stages = stages_of(file, c.stage_texts);
   check_stages(file, c);

@@ -4,6 +4,7 @@
 #include "apps/case/material_keys.h"
 #include "apps/case/specimen_keys.h"
 #include "apps/element/loading_stages.h"
+#include "apps/element/stage_analysis.h"
 #include "apps/run/checkpoint_scheduler.h"
 #include "coupling/triaxial/triaxial_test.h"
 
@@ -40,9 +41,7 @@ struct TriaxialCase : coupling::TriaxialControl {
   fem::Tube tube;
   dem::ContactLaw membrane_contact, platen_contact;
 
-  // Analysis
-  double secant_from = 1e-4, secant_to = 1e-3; ///< strain [-]
-  double yield_offset = 2e-4;                  ///< strain [-]
+  AnalysisKeys analysis;
 
   // Output
   enum class Pictures { none, stages, strain };

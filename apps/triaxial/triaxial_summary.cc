@@ -13,10 +13,11 @@
 
 namespace mergel::apps {
 
-StagePoint point_of(const coupling::TriaxialRecord& r)
+TriaxialPoint point_of(const coupling::TriaxialRecord& r)
 {
-  return {r.stage,    r.is_approach, r.controlled_strain, r.cell_pressure, r.whole,
-          r.of_stage, r.broken};
+  return {{r.stage, r.is_approach, r.controlled_strain, r.of_stage, r.broken},
+          r.cell_pressure,
+          r.whole};
 }
 
 namespace {
@@ -24,19 +25,21 @@ namespace {
 template <class Point>
 dem::NumbersOf<Point> numbers_of_point(Point& p)
 {
-  dem::NumbersOf<Point> all{{"controlled strain [-]", &p.controlled_strain},
+  dem::NumbersOf<Point> all{{"controlled strain [-]", &p.analysed.controlled_strain},
                             {"cell pressure [Pa]", &p.cell_pressure}};
   dem::append_vector(all, "stress", "[Pa]", p.whole.stress);
   dem::append_vector(all, "strain", "[-]", p.whole.strain);
-  dem::append_vector(all, "stress of the stage", "[Pa]", p.of_stage.stress);
-  dem::append_vector(all, "strain of the stage", "[-]", p.of_stage.strain);
+  dem::append_vector(all, "stress of the stage", "[Pa]", p.analysed.of_stage.stress);
+  dem::append_vector(all, "strain of the stage", "[-]", p.analysed.of_stage.strain);
   return all;
 }
 
 template <class Point>
 dem::CountsOf<Point> counts_of_point(Point& p)
 {
-  return {{"stage", &p.stage}, {"approaches", &p.is_approach}, {"broken bonds", &p.broken}};
+  return {{"stage", &p.analysed.stage},
+          {"approaches", &p.analysed.is_approach},
+          {"broken bonds", &p.analysed.broken}};
 }
 
 template <class Extremes>
@@ -56,7 +59,7 @@ dem::NumbersOf<Extremes> numbers_of_extremes(Extremes& e)
 
 } // namespace
 
-void save(dem::State& state, const std::vector<StagePoint>& points)
+void save(dem::State& state, const std::vector<TriaxialPoint>& points)
 {
   dem::save_number_rows(state, "point_numbers", points,
                         [](auto& p) { return numbers_of_point(p); });
@@ -64,9 +67,9 @@ void save(dem::State& state, const std::vector<StagePoint>& points)
                        [](auto& p) { return counts_of_point(p); });
 }
 
-std::vector<StagePoint> load_points(const dem::State& state)
+std::vector<TriaxialPoint> load_points(const dem::State& state)
 {
-  auto points = dem::load_count_rows<StagePoint>(
+  auto points = dem::load_count_rows<TriaxialPoint>(
       state, "point_counts", [](auto& p) { return counts_of_point(p); });
   if (points.empty()) dem::State::refuse("point_counts", "has no record");
   dem::load_number_rows(state, "point_numbers", points,
@@ -98,7 +101,8 @@ void TriaxialExtremes::add(const coupling::TriaxialRecord& r)
   if (!(q > 0.0) || !(F > 0.0)) return;
   const double reference = std::max(q, r.cell_pressure);
   if (!r.is_approach)
-    raise(platen_difference, 2.0 * (r.F_top - r.F_bottom) / F * r.whole.axial() / reference);
+    raise(platen_difference,
+          2.0 * (r.F_top - r.F_bottom) / F * r.whole.axial() / reference);
   own_load = (std::abs(r.membrane.axial) + std::abs(r.membrane.hoop)) / q;
 }
 
@@ -126,11 +130,14 @@ std::string describe(const TriaxialCase& c, const coupling::TriaxialTest& test)
 namespace {
 
 /// Points of a stage and of those that resume it, without approaches.
-std::vector<StagePoint> points_of(const std::vector<StagePoint>& points, std::size_t stage)
+std::vector<TriaxialPoint> points_of(const std::vector<TriaxialPoint>& points,
+                                     std::size_t stage)
 {
-  std::vector<StagePoint> own;
+  std::vector<TriaxialPoint> own;
   std::copy_if(points.begin(), points.end(), std::back_inserter(own),
-               [&](const StagePoint& p) { return p.stage == stage && !p.is_approach; });
+               [&](const TriaxialPoint& p) {
+                 return p.analysed.stage == stage && !p.analysed.is_approach;
+               });
   return own;
 }
 
@@ -139,10 +146,10 @@ std::vector<StagePoint> points_of(const std::vector<StagePoint>& points, std::si
 void summarise(Summary& summary, const TriaxialCase& c, const coupling::TriaxialTest& test,
                const coupling::CoupledSystem& system,
                const std::vector<dem::Outcome>& outcomes,
-               const std::vector<StagePoint>& points, const TriaxialExtremes& extremes,
+               const std::vector<TriaxialPoint>& points, const TriaxialExtremes& extremes,
                const Work& work)
 {
-  const StagePoint& last = points.back();
+  const TriaxialPoint& last = points.back();
   summary.number("p at the end [Pa]", last.whole.p());
   summary.number("q at the end [Pa]", last.whole.q());
   summary.number("largest q [Pa]", extremes.q);
@@ -154,7 +161,7 @@ void summarise(Summary& summary, const TriaxialCase& c, const coupling::Triaxial
   summary.number("largest difference of the platens over the largest q [-]",
                  extremes.platen_difference);
   summary.number("largest stretch of the membrane [-]", extremes.stretch);
-  summary.count("bonds broken [-]", last.broken);
+  summary.count("bonds broken [-]", last.analysed.broken);
   summary.number("largest energy error [-]", extremes.energy_error);
   add_alarm(summary, test.state().alarm);
   summary.number("largest strain rate [1/s]", test.state().largest_rate);
@@ -188,7 +195,7 @@ void summarise(Summary& summary, const TriaxialCase& c, const coupling::Triaxial
   out << "at the end: p " << 1e-6 * last.whole.p() << ", q " << 1e-6 * last.whole.q()
       << " MPa, volumetric strain of the middle third "
       << 100.0 * extremes.volumetric_strain << " %, e " << extremes.void_ratio << ", "
-      << last.broken << " bonds broken\n";
+      << last.analysed.broken << " bonds broken\n";
   if (test.has_membrane()) {
     out << "membrane: penetration " << 100.0 * extremes.penetration
         << " % of the volume, largest stretch " << extremes.stretch << ", own load "

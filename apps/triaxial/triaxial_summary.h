@@ -7,17 +7,15 @@
 
 namespace mergel::apps {
 
-/// What the analysis needs of a record.
-struct StagePoint {
-  std::size_t stage = 0;
-  bool is_approach = false;
-  double controlled_strain = 0.0, cell_pressure = 0.0;
-  dem::SoilState whole, of_stage;
-  std::size_t broken = 0;
+/// What the log and the summary need of a record.
+struct TriaxialPoint {
+  StagePoint analysed;
+  double cell_pressure = 0.0; ///< [Pa]
+  dem::SoilState whole;       ///< strains from the start of the test
 };
-StagePoint point_of(const coupling::TriaxialRecord& r);
-void save(dem::State& state, const std::vector<StagePoint>& points);
-std::vector<StagePoint> load_points(const dem::State& state);
+TriaxialPoint point_of(const coupling::TriaxialRecord& r);
+void save(dem::State& state, const std::vector<TriaxialPoint>& points);
+std::vector<TriaxialPoint> load_points(const dem::State& state);
 
 /// Largest values over all records, and the last ones.
 struct TriaxialExtremes {
@@ -41,7 +39,7 @@ std::string describe(const TriaxialCase& c, const coupling::TriaxialTest& test);
 void summarise(Summary& summary, const TriaxialCase& c, const coupling::TriaxialTest& test,
                const coupling::CoupledSystem& system,
                const std::vector<dem::Outcome>& outcomes,
-               const std::vector<StagePoint>& points, const TriaxialExtremes& extremes,
+               const std::vector<TriaxialPoint>& points, const TriaxialExtremes& extremes,
                const Work& work);
 
 } // namespace mergel::apps

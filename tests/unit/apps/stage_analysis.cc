@@ -1,5 +1,7 @@
-/// The results that mergel element derives from the records of its loading stages.
-#include "apps/element/element_output.h"
+/// The results that are read off the curves of loading stages.
+#include "apps/element/stage_analysis.h"
+
+#include "apps/element/loading_stages.h"
 
 #include <catch2/catch.hpp>
 
@@ -10,27 +12,21 @@ namespace {
 
 /// Records of simple loading stages; stresses in Pa.
 struct RecordedTest {
-  ElementCase c;
+  std::vector<dem::LoadingStage> stages;
   std::vector<dem::Outcome> outcomes;
-  std::vector<dem::ElementRecord> records;
+  std::vector<StagePoint> points;
 
   void stage(const std::string& text)
   {
     for (const dem::LoadingStage& l : read_stages(text)) {
-      c.stages.push_back(l);
+      stages.push_back(l);
       outcomes.push_back(dem::Outcome::done);
     }
   }
   void add(std::size_t stage, double controlled_strain, const dem::Vec3& strain,
            const dem::Vec3& stress, bool is_approach = false, std::size_t broken = 0)
   {
-    dem::ElementRecord r;
-    r.stage = stage;
-    r.controlled_strain = controlled_strain;
-    r.of_stage = {stress, strain};
-    r.is_approach = is_approach;
-    r.broken = broken;
-    records.push_back(r);
+    points.push_back({stage, is_approach, controlled_strain, {stress, strain}, broken});
   }
   /// Axial strains and stresses at this lateral stress; lateral strain is -0.2 times axial.
   void axial(std::size_t stage, const std::vector<std::pair<double, double>>& curve,
@@ -39,7 +35,7 @@ struct RecordedTest {
     for (const auto& [e, s] : curve)
       add(stage, e, {-0.2 * e, -0.2 * e, e}, {lateral, lateral, s});
   }
-  std::vector<StageResult> results() const { return analyse(c, outcomes, records); }
+  std::vector<StageResult> results() const { return analyse(stages, {}, outcomes, points); }
 };
 
 /// Value of the finding of this name; NaN if there is none.
