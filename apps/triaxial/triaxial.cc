@@ -121,15 +121,19 @@ std::string TriaxialJob::what_is_done(const Restart& restart) const
 {
   const auto outcomes = load_outcomes(restart.checkpoint.state, case_.stages.size());
   const std::size_t n = outcomes.size();
+  const bool is_analysed_anew =
+      std::any_of(restart.changed.begin(), restart.changed.end(),
+                  [](const auto& k) { return k.section == "Analysis"; });
   switch (outcomes.back()) {
   case dem::Outcome::unstable: // under way
   case dem::Outcome::goes_on:
     return "";
   case dem::Outcome::done:
-    if (n < case_.stages.size()) return "";
+    if (n < case_.stages.size() || is_analysed_anew) return "";
     return "all its stages are done. To load the specimen further, restart with another "
            "stage.";
   default:
+    if (is_analysed_anew) return "";
     return "stage " + std::to_string(n) +
            " ended the test: " + dem::sentence_of(outcomes.back()) +
            ". It cannot be loaded further.";

@@ -127,22 +127,6 @@ std::string describe(const TriaxialCase& c, const coupling::TriaxialTest& test)
   return out.str();
 }
 
-namespace {
-
-/// Points of a stage and of those that resume it, without approaches.
-std::vector<TriaxialPoint> points_of(const std::vector<TriaxialPoint>& points,
-                                     std::size_t stage)
-{
-  std::vector<TriaxialPoint> own;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(own),
-               [&](const TriaxialPoint& p) {
-                 return p.analysed.stage == stage && !p.analysed.is_approach;
-               });
-  return own;
-}
-
-} // namespace
-
 void summarise(Summary& summary, const TriaxialCase& c, const coupling::TriaxialTest& test,
                const coupling::CoupledSystem& system,
                const std::vector<dem::Outcome>& outcomes,
@@ -150,6 +134,9 @@ void summarise(Summary& summary, const TriaxialCase& c, const coupling::Triaxial
                const Work& work)
 {
   const TriaxialPoint& last = points.back();
+  std::vector<StagePoint> analysed;
+  for (const TriaxialPoint& p : points) analysed.push_back(p.analysed);
+  summarise(summary, analyse(c.stages, c.analysis, outcomes, analysed), c.analysis);
   summary.number("p at the end [Pa]", last.whole.p());
   summary.number("q at the end [Pa]", last.whole.q());
   summary.number("largest q [Pa]", extremes.q);
@@ -179,19 +166,6 @@ void summarise(Summary& summary, const TriaxialCase& c, const coupling::Triaxial
 
   std::ostream& out = summary.closing;
   out.precision(4);
-  for (std::size_t k = 0; k < outcomes.size(); ++k) {
-    out << "stage " << k + 1 << ", " << name_of(c.stages[k]) << ": "
-        << dem::sentence_of(outcomes[k]);
-    const auto own = points_of(points, k);
-    if (!own.empty()) {
-      const auto most = std::max_element(own.begin(), own.end(), [](auto& a, auto& b) {
-        return std::abs(a.whole.q()) < std::abs(b.whole.q());
-      });
-      out << "; largest q " << 1e-6 * most->whole.q() << " MPa at an axial strain of "
-          << 100.0 * most->whole.axial_strain() << " %";
-    }
-    out << '\n';
-  }
   out << "at the end: p " << 1e-6 * last.whole.p() << ", q " << 1e-6 * last.whole.q()
       << " MPa, volumetric strain of the middle third "
       << 100.0 * extremes.volumetric_strain << " %, e " << extremes.void_ratio << ", "
