@@ -69,7 +69,7 @@ set(apps_floors
     "bond: case run"
     "sample: case run specimen coupled pile"
     "bench: case run"
-    "info: case run pile element"
+    "info: case run pile element triaxial"
     "view: case")
 
 # Loose files that stand above the folders: they see all of the package.

@@ -10,6 +10,7 @@
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
 #include "apps/run/results.h"
+#include "apps/triaxial/triaxial_output.h"
 #include "dem/io/sample_file.h"
 #include "dem/io/state/checkpoint.h"
 #include "dem/io/table.h"
@@ -141,6 +142,13 @@ bool is_whole_vtk(const fs::path& file)
 std::string lacks_before(const fs::path& folder, const dem::Checkpoint& c)
 {
   if (c.label.job == "pile") return PileOutput::check(folder, c.state);
+  if (c.label.job == "triaxial") {
+    CaseFile file;
+    TriaxialCase own;
+    declare(file, own);
+    file.read_text(c.label.case_text, "its case");
+    return TriaxialOutput::check(folder, own, c.state);
+  }
   if (c.label.job != "element") return "";
   return ElementHistory::check(folder / "history.csv", c.state) +
          ElementPictures::check(folder, c.state);

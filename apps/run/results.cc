@@ -51,7 +51,7 @@ bool contains(const fs::path& file, const std::string& text)
   return all.find(text) != std::string::npos;
 }
 
-/// Whether the folder is that of mergel sample, whose case may be that of a pile.
+/// Whether the folder is that of mergel sample, whose case may be that of another job.
 bool holds_only_a_specimen(const fs::path& folder)
 {
   if (is_there(folder / "summary.json"))
@@ -65,14 +65,21 @@ std::vector<std::string> series_of(const fs::path& folder, const std::string& jo
 {
   if (job == "pile") return {"particles", "bonds", "pile", "far_field"};
   if (job == "sample") return {"particles", "bonds"};
-  if (job != "element") return {};
+  if (job != "element" && job != "triaxial") return {};
   const CaseScan scan = case_of(folder);
-  const bool has_pictures =
-      std::any_of(scan.entries.begin(), scan.entries.end(), [](const CaseEntry& e) {
-        return e.section == "Output" && e.key == "pictures" && e.value != "none";
-      });
-  return has_pictures ? std::vector<std::string>{"particles", "bonds"}
-                      : std::vector<std::string>{};
+  const auto value_of = [&](const char* section, const char* key) {
+    const auto is_it = [&](const CaseEntry& e) {
+      return e.section == section && e.key == key;
+    };
+    const auto found = std::find_if(scan.entries.begin(), scan.entries.end(), is_it);
+    return found == scan.entries.end() ? std::string{} : found->value;
+  };
+  const std::string pictures = value_of("Output", "pictures");
+  if (pictures.empty() || pictures == "none") return {};
+  std::vector<std::string> series{"particles", "bonds"};
+  if (job == "triaxial") series.push_back("platens");
+  if (value_of("Membrane", "membrane") == "true") series.push_back("membrane");
+  return series;
 }
 
 /// The files of a series that are not there, or the series where it cannot be read.
@@ -95,11 +102,13 @@ std::string job_of(const fs::path& folder)
   const CaseScan scan = case_of(folder);
   const auto has = [&](const char* section) { return scan.sections.contains(section); };
   if (has("Particles")) return "bond";
+  if (has("Specimen") && holds_only_a_specimen(folder)) return "sample";
+  if (has("Membrane") || has("Platens")) return "triaxial";
   if (has("Loading")) return "element";
-  if (has("Specimen"))
-    return has("Pile") && !holds_only_a_specimen(folder) ? "pile" : "sample";
+  if (has("Specimen")) return has("Pile") ? "pile" : "sample";
   const std::string heading = first_line(folder / "history.csv");
   if (heading.find("depth/D_p [-]") != std::string::npos) return "pile";
+  if (heading.find("cell pressure [Pa]") != std::string::npos) return "triaxial";
   if (heading.find("axial strain [-]") != std::string::npos) return "element";
   if (heading.find("plastic theta [rad]") != std::string::npos) return "bond";
   return "";
@@ -115,7 +124,8 @@ std::vector<std::string> missing_results(const fs::path& folder, const std::stri
   owe("resolved.prm");
   owe(job == "sample" ? "sample.h5" : "history.csv");
   const std::vector<std::string> owed = series_of(folder, job);
-  for (const char* name : {"particles", "bonds", "pile", "far_field"}) {
+  for (const char* name :
+       {"particles", "bonds", "pile", "far_field", "platens", "membrane"}) {
     const std::string pvd = std::string(name) + ".pvd";
     if (is_there(folder / pvd)) {
       const auto gone = missing_in(folder, pvd);

@@ -52,6 +52,15 @@ for name in history.csv resolved.prm particles.pvd fields/bonds_0001.vtp; do
   grep -q 'results folder, incomplete' log && grep -q "^  missing  *$name$" log || fail "info without $name: $(cat log)"
 done
 
+# A triaxial test has series of its own.
+bounded "$mergel" triaxial "$root/apps/cases/triaxial_small.prm" --set "Specimen/height=6 mm" \
+  --set "Loading/stage 1=isotropic to p = 0.1 MPa" --set "Loading/stage 2=" --output cell >log || fail "a triaxial test: $(tail -3 log)"
+"$mergel" info cell >log && grep -q 'results folder, finished' log || fail "info of a triaxial test: $(cat log)"
+for name in membrane.pvd fields/platens_0001.vtp; do
+  rm -rf part; cp -r cell part; rm "part/$name"
+  [ "$(code_of "$mergel" info part)" -eq 1 ] && grep -q "^  missing  *$name$" log || fail "info without $name: $(cat log)"
+done
+
 # A pile, and a pair: of the other jobs.
 tiny+=("${shallow[@]}" --set "Output/frames=2" --set "Output/checkpoint every=20 steps")
 launch "$mergel" pile "$case_file" "${tiny[@]}" --output pile >log 2>&1

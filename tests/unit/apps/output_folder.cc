@@ -66,12 +66,23 @@ std::string refusal(const fs::path& folder, Earlier earlier,
   return by_check;
 }
 
-const std::vector<std::string> own = {
-    ".history.partial.csv", "curve.png",     "damage.png",
-    "displacement.png",     "element.png",   "fields/bonds_0000.vtp",
-    "history.csv",          "isotropic.png", "load.png",
-    "particles.pvd",        "resolved.prm",  "sample.h5",
-    "summary.json"};
+const std::vector<std::string> own = {".history.partial.csv",
+                                      "curve.png",
+                                      "damage.png",
+                                      "displacement.png",
+                                      "element.png",
+                                      "fields/bonds_0000.vtp",
+                                      "fields/membrane_0000.vtp",
+                                      "fields/platens_0001.vtp",
+                                      "history.csv",
+                                      "isotropic.png",
+                                      "load.png",
+                                      "membrane.pvd",
+                                      "particles.pvd",
+                                      "platens.pvd",
+                                      "resolved.prm",
+                                      "sample.h5",
+                                      "summary.json"};
 
 } // namespace
 

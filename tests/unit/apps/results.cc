@@ -47,6 +47,19 @@ void write_element_run(const fs::path& folder, const std::string& pictures)
   write_series(folder, "bonds");
 }
 
+/// What a finished triaxial run leaves. @param membrane "true" or "false"
+void write_triaxial_run(const fs::path& folder, const std::string& membrane)
+{
+  write(folder / "resolved.prm",
+        "subsection Specimen\nend\nsubsection Membrane\n set membrane = " + membrane +
+            "\nend\nsubsection Platens\nend\nsubsection Loading\nend\n"
+            "subsection Output\n set pictures = stages\nend\n");
+  for (const char* name : {"history.csv", "summary.json", "sample.h5"})
+    write(folder / name);
+  for (const char* name : {"particles", "bonds", "platens"}) write_series(folder, name);
+  if (membrane == "true") write_series(folder, "membrane");
+}
+
 } // namespace
 
 TEST_CASE("A finished run lacks every file that is removed from it", "[unit][apps]")
@@ -63,6 +76,23 @@ TEST_CASE("A finished run lacks every file that is removed from it", "[unit][app
     CHECK_THROWS_WITH(require_results(folder.path, "element"),
                       Contains("lacks " + std::string(removed)));
   }
+}
+
+TEST_CASE("A triaxial run lacks every series that is removed, and no membrane without one",
+          "[unit][apps]")
+{
+  for (const char* removed : {"particles.pvd", "bonds.pvd", "platens.pvd", "membrane.pvd",
+                              "fields/platens_0000.vtp", "fields/membrane_0000.vtp"}) {
+    const TemporaryFolder folder;
+    write_triaxial_run(folder.path, "true");
+    REQUIRE(job_of(folder.path) == "triaxial");
+    CHECK(missing_results(folder.path, "triaxial", Extent::finished).empty());
+    fs::remove(folder.path / removed);
+    CHECK(missing_results(folder.path, "triaxial", Extent::finished) == Names{removed});
+  }
+  const TemporaryFolder unconfined;
+  write_triaxial_run(unconfined.path, "false");
+  CHECK(missing_results(unconfined.path, "triaxial", Extent::finished).empty());
 }
 
 TEST_CASE("Series are owed by the jobs that write them, at the end", "[unit][apps]")
@@ -83,6 +113,8 @@ TEST_CASE("Series are owed by the jobs that write them, at the end", "[unit][app
 TEST_CASE("The job of a folder is told by its case, else by its history", "[unit][apps]")
 {
   const std::string pile = "subsection Specimen\nend\nsubsection Pile\nend\n";
+  const std::string element = "subsection Specimen\nend\nsubsection Loading\nend\n";
+  const std::string triaxial = element + "subsection Platens\nend\n";
   const auto job = [](const std::vector<std::pair<const char*, std::string>>& files) {
     const TemporaryFolder folder;
     for (const auto& [name, text] : files) write(folder.path / name, text);
@@ -100,6 +132,15 @@ TEST_CASE("The job of a folder is told by its case, else by its history", "[unit
   CHECK(job({{"resolved.prm", "subsection Specimen\nend\n"}}) == "sample");
   CHECK(job({{"resolved.prm", "subsection Particles\nend\nsubsection Loading\nend\n"}}) ==
         "bond");
+  CHECK(job({{"resolved.prm", triaxial}}) == "triaxial");
+  CHECK(job({{"resolved.prm", triaxial}, {"sample.h5", "x"}, {"history.csv", "x"}}) ==
+        "triaxial");
+  CHECK(job({{"resolved.prm", triaxial}, {"sample.h5", "x"}}) == "sample");
+  CHECK(job({{"resolved.prm", element}}) == "element");
+  CHECK(job({{"resolved.prm", element},
+             {"summary.json", "{\"porosity wanted [-]\": 0.5}"}}) == "sample");
+  CHECK(job({{"history.csv", "time [s],axial strain [-],cell pressure [Pa]\n"}}) ==
+        "triaxial");
   CHECK(job({{"history.csv", "time [s],depth [m],depth/D_p [-]\n"}}) == "pile");
   CHECK(job({{"history.csv", "time [s],stage [-],axial strain [-]\n"}}) == "element");
   CHECK(job({{"history.csv", "u_n [m],plastic theta [rad]\n"}}) == "bond");
