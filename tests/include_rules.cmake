@@ -67,7 +67,7 @@ set(apps_floors
     "element: case run specimen"
     "triaxial: case run specimen coupled element"
     "bond: case run"
-    "sample: case run specimen coupled pile"
+    "sample: case run specimen coupled pile element triaxial"
     "bench: case run"
     "info: case run pile element triaxial"
     "view: case")

@@ -1,13 +1,15 @@
 /// mergel sample: makes a specimen and writes it to a file that later runs read.
-#include "apps/case/case_scan.h"
 #include "apps/coupled/system_of_case.h"
+#include "apps/element/element_case.h"
 #include "apps/pile/pile_case.h"
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
 #include "apps/run/restart.h"
 #include "apps/run/results.h"
+#include "apps/sample/job_of_case.h"
 #include "apps/specimen/specimen.h"
+#include "apps/triaxial/triaxial_case.h"
 #include "dem/io/assembly_fields.h"
 #include "dem/io/atomic_file.h"
 
@@ -43,6 +45,14 @@ SpecimenKeys& keys_of(SampleCase& c)
 {
   return c.specimen;
 }
+SpecimenKeys& keys_of(ElementCase& c)
+{
+  return c.specimen;
+}
+SpecimenKeys& keys_of(TriaxialCase& c)
+{
+  return c.specimen;
+}
 SpecimenKeys& keys_of(PileCase& c)
 {
   return c.assembly;
@@ -50,25 +60,19 @@ SpecimenKeys& keys_of(PileCase& c)
 
 /// Finish what only the walls of the run determine.
 void fit_to_walls(SampleCase&) {}
+void fit_to_walls(ElementCase&) {}
+void fit_to_walls(TriaxialCase&) {}
 void fit_to_walls(PileCase& c)
 {
   make_far_field(c.assembly, MPI_COMM_WORLD); // sets the faces around the side
 }
 
-/// Whether the case is one of `mergel pile`, whose specimen is made inside its walls.
-bool is_pile_case(const JobOptions& options)
+CaseJob job_of(const JobOptions& options)
 {
   const std::filesystem::path file =
       options.case_file.empty() ? folder_to_restart(options.restart) / "resolved.prm"
                                 : options.case_file;
-  const CaseScan scan = scan_case(read_case_text(file), file.string());
-  std::string shape = scan.sections.contains("Pile") ? "half cylinder" : "";
-  const auto look = [&](const CaseEntry& e) {
-    if (e.section == "Specimen" && e.key == "shape") shape = e.value;
-  };
-  for (const CaseEntry& e : scan.entries) look(e);
-  for (const std::string& set : options.set) look(scan_override(set));
-  return shape == "half cylinder";
+  return job_of_case(scan_case(read_case_text(file), file.string()), options.set);
 }
 
 /// Particles and bonds as an assembly at rest, for the writers of fields.
@@ -136,10 +140,15 @@ void make(const JobOptions& options)
 
 void help_sample(std::ostream& out)
 {
-  out << "A case with a section Pile, or with `shape = half cylinder`, is a case of mergel "
-         "pile.\nIts specimen is made inside the walls of its run; mergel pile --help "
-         "lists "
-         "its keys.\nKeys of all other cases:\n\n";
+  out << "A case of mergel pile, element or triaxial serves here as it is: the specimen of "
+         "that "
+         "job is\nmade, that of a pile inside the walls of its run. A section Pile, or "
+         "`shape = "
+         "half cylinder`,\ntells a case of pile; a section Membrane or Platens one of "
+         "triaxial; a "
+         "section Loading one of\ntriaxial for a cylinder, one of element for a periodic "
+         "box. Each "
+         "job lists its keys by --help.\nKeys of all other cases:\n\n";
   CaseFile file;
   SampleCase c;
   declare(file, c);
@@ -148,14 +157,24 @@ void help_sample(std::ostream& out)
 
 int run_sample(const JobOptions& options)
 {
-  bool is_pile = false;
-  on_every_rank([&] { is_pile = is_pile_case(options); });
-  MPI_Bcast(&is_pile, 1, MPI_CXX_BOOL, 0,
+  CaseJob job = CaseJob::sample;
+  on_every_rank([&] { job = job_of(options); });
+  MPI_Bcast(&job, sizeof job, MPI_BYTE, 0,
             MPI_COMM_WORLD); // require_same_case() compares the cases
-  if (is_pile)
-    make<PileCase>(options);
-  else
+  switch (job) {
+  case CaseJob::sample:
     make<SampleCase>(options);
+    break;
+  case CaseJob::pile:
+    make<PileCase>(options);
+    break;
+  case CaseJob::element:
+    make<ElementCase>(options);
+    break;
+  case CaseJob::triaxial:
+    make<TriaxialCase>(options);
+    break;
+  }
   return 0;
 }
 

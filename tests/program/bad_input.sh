@@ -247,6 +247,17 @@ sample_set "strengths that vary too much" \
 refuse_set "a width without a distribution" \
   "--set $variability/coefficient of variation = 0\.3: is a key of .distribution. = .*" \
   "$variability/coefficient of variation=0.3"
+# mergel sample reads all sections of a case of another job, and no section without a job.
+for job in element triaxial; do
+  refuse "a stage that a case of $job cannot have" '--set Loading/stage 1 = isotropic: .*' \
+    sample "$root/apps/cases/${job}_small.prm" --output out --set "Loading/stage 1=isotropic"
+  refuse "a specimen of $job that is read" '--set Specimen/file = text\.h5: mergel sample makes the specimen: .*' \
+    sample "$root/apps/cases/${job}_small.prm" --output out --set "Specimen/file=text.h5"
+done
+refuse "a cell pressure without a membrane" '.*triaxial_small\.prm:[0-9]+: Loading/stage 1 = .*needs a membrane.*' \
+  sample "$root/apps/cases/triaxial_small.prm" --output out --set "Membrane/membrane=false"
+refuse "a specimen of two particles" '.*bond_fig5a\.prm:[0-9]+: unknown section "Particles".*' \
+  sample "$root/apps/cases/bond_fig5a.prm" --output out
 edited case.prm '/set symmetry/d'
 refuse "a pile in a whole cylinder" '--set Specimen/shape = cylinder: .*half cylinder.*' \
   pile case.prm --output out --set "Specimen/shape=cylinder"

@@ -48,6 +48,11 @@ head -1 a/history.csv | awk -F, '{ n = NF } END { exit !(n == 56) }' || fail "th
 cmp a/history.csv b/history.csv || fail "a repeated run differs"
 cmp a/resolved.prm b/resolved.prm || fail "the resolved case of a resolved case differs"
 
+# mergel sample makes the specimen of this case, and a test that reads it has the same bits.
+"$mergel" sample a/resolved.prm --output rock >rock.log || fail "the specimen: $(cat rock.log)"
+"$mergel" element a/resolved.prm --set "Specimen/file=rock/sample.h5" --output read >read.log || fail "of a sample: $(cat read.log)"
+cmp a/history.csv read/history.csv || fail "a test that reads its specimen differs"
+
 # Strengths scale with the width by Eq. 18; bonds are brittle, so that the peak follows the strengths.
 run "compression to axial strain = 0.7 %" "" "" "" c || fail "compression: $(cat c.log)"
 run "compression to axial strain = 0.7 %" "" "" "" d --set "Size effect/size effect=true" \

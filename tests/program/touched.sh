@@ -52,9 +52,13 @@ for name in history.csv resolved.prm particles.pvd fields/bonds_0001.vtp; do
   grep -q 'results folder, incomplete' log && grep -q "^  missing  *$name$" log || fail "info without $name: $(cat log)"
 done
 
-# A triaxial test has series of its own.
-bounded "$mergel" triaxial "$root/apps/cases/triaxial_small.prm" --set "Specimen/height=6 mm" \
-  --set "Loading/stage 1=isotropic to p = 0.1 MPa" --set "Loading/stage 2=" --output cell >log || fail "a triaxial test: $(tail -3 log)"
+# A triaxial test has series of its own, and the specimen that mergel sample makes of its case.
+cell=("$root/apps/cases/triaxial_small.prm" --set "Specimen/height=6 mm"
+  --set "Loading/stage 1=isotropic to p = 0.1 MPa" --set "Loading/stage 2=")
+bounded "$mergel" triaxial "${cell[@]}" --output cell >log || fail "a triaxial test: $(tail -3 log)"
+bounded "$mergel" sample "${cell[@]}" --output specimens/cell >log || fail "its specimen: $(tail -3 log)"
+cmp cell/sample.h5 specimens/cell/sample.h5 || fail "the specimen of a triaxial test differs"
+"$mergel" info specimens/cell >log && grep -q 'results folder, finished' log || fail "info of its specimen: $(cat log)"
 "$mergel" info cell >log && grep -q 'results folder, finished' log || fail "info of a triaxial test: $(cat log)"
 for name in membrane.pvd fields/platens_0001.vtp; do
   rm -rf part; cp -r cell part; rm "part/$name"

@@ -1,0 +1,29 @@
+#include "apps/sample/job_of_case.h"
+
+namespace mergel::apps {
+
+CaseJob job_of_case(const CaseScan& scan, const std::vector<std::string>& set)
+{
+  std::vector<CaseEntry> entries = scan.entries;
+  std::map<std::string, int> sections = scan.sections;
+  for (const std::string& text : set) {
+    entries.push_back(scan_override(text));
+    sections.try_emplace(entries.back().section, 0);
+  }
+  const auto has = [&](const char* section) { return sections.contains(section); };
+  std::string shape = has("Pile") ? "half cylinder" : "";
+  bool has_diameter = false;
+  for (const CaseEntry& e : entries) {
+    if (e.section != "Specimen") continue;
+    if (e.key == "shape") shape = e.value;
+    if (e.key == "diameter") has_diameter = true;
+  }
+
+  if (shape == "half cylinder") return CaseJob::pile;
+  if (has("Membrane") || has("Platens")) return CaseJob::triaxial;
+  if (!has("Loading") || has("Particles")) return CaseJob::sample;
+  const bool is_round = shape.empty() ? has_diameter : shape == "cylinder";
+  return is_round ? CaseJob::triaxial : CaseJob::element;
+}
+
+} // namespace mergel::apps
