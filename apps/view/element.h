@@ -1,4 +1,4 @@
-/// Plots of runs of `mergel element`, as usual in rock mechanics.
+/// Plots of runs of `mergel element` and `mergel triaxial`, as usual in rock mechanics.
 #pragma once
 
 #include "apps/view/run_plot.h"
@@ -9,8 +9,11 @@
 
 namespace mergel::apps {
 
-/// Whether this is the history of an element test, not of a pile or bond.
+/// Whether this is the history of an element test, not of a pile, bond or triaxial test.
 bool is_element_history(const dem::Table& history);
+
+/// Whether this is the history of a triaxial test.
+bool is_triaxial_history(const dem::Table& history);
 
 /// Which stages are drawn, counted from 1.
 struct Stages {
@@ -23,9 +26,9 @@ struct Stages {
 /// @throws InputError naming the text
 Stages stages_of(const std::string& text);
 
-/// The records of these stages. "axial strain" and "volumetric strain" count from where the
-/// strain of the first of them counts; the approach to the stress of that stage is left
-/// out. "... of the stage" stay as they are.
+/// The records of these stages. "axial strain" and "volumetric strain", and strains "of the
+/// middle third", count from where the strain of the first of them counts; the approach to
+/// the stress of that stage is left out. "... of the stage" stay as they are.
 /// @throws InputError naming the file when it holds no such stage
 dem::Table from_stages(const dem::Table& history, const Stages& stages);
 
@@ -35,7 +38,8 @@ void name_stages(PlotQuantity& quantity, const Stages& stages);
 /// Whether the deviator stress is negligible in all runs: |q| below 1 % of the largest p.
 bool is_isotropic(const std::vector<Run>& runs);
 
-/// q and volumetric strain over axial strain; q and void ratio over p.
+/// q and volumetric strain over axial strain; q and void ratio over p. The volumetric strain
+/// of a triaxial test is that of its middle third.
 std::vector<RunPlot> element_plots(const std::vector<Run>& runs, const Stages& stages);
 
 /// p over volumetric strain; void ratio over log p.

@@ -1,6 +1,6 @@
 /// mergel-view: pictures of runs. Of a pile run: damage.png, displacement.png and load.png;
 /// of bond runs: loads.png and surface.png; of element runs: element.png or isotropic.png;
-/// of any: curve.png.
+/// of triaxial runs: triaxial.png or isotropic.png; of any: curve.png.
 
 #include "apps/view/bond.h"
 #include "apps/view/bond_loads.h"
@@ -164,8 +164,8 @@ void draw_pile(const Options& options, const dem::Table& history)
   const fs::path folder = options.folders.front();
   if (!options.labels.empty())
     throw InputError("--label " + options.labels.front() +
-                     ": is for bond and element runs, and for --curve; " + folder.string() +
-                     " holds a pile run. Leave it out.");
+                     ": is for bond, element and triaxial runs, and for --curve; " +
+                     folder.string() + " holds a pile run. Leave it out.");
   ResultFrame frame = read_frame(folder, options.frame);
   const fs::path output = picture_folder(options);
   const auto draw_picture = [&](AssemblyPicture picture, const char* name) {
@@ -272,14 +272,15 @@ std::vector<Run> runs_of(const Options& options, const Stages& stages,
   return runs;
 }
 
-void draw_elements(const Options& options, const Stages& stages,
-                   const std::vector<dem::Table>& histories)
+/// @param sheared name of the picture where q matters
+void draw_stages(const Options& options, const Stages& stages,
+                 const std::vector<dem::Table>& histories, const char* sheared)
 {
   const std::vector<Run> runs = runs_of(options, stages, histories);
   if (is_isotropic(runs))
     draw_panels(options, isotropic_plots(runs, stages), runs, "isotropic.png");
   else
-    draw_panels(options, element_plots(runs, stages), runs, "element.png");
+    draw_panels(options, element_plots(runs, stages), runs, sheared);
 }
 
 void draw_curves(const Options& options, const Stages& stages,
@@ -300,18 +301,28 @@ void draw_curves(const Options& options, const Stages& stages,
   draw_panels(options, plots, runs, "curve.png");
 }
 
-enum class Job { pile, bond, element };
+enum class Job { pile, bond, element, triaxial };
 
 Job job_of(const dem::Table& history)
 {
   if (is_bond_history(history)) return Job::bond;
+  if (is_triaxial_history(history)) return Job::triaxial;
   return is_element_history(history) ? Job::element : Job::pile;
 }
 
 std::string described(Job job)
 {
-  if (job == Job::pile) return "a pile run";
-  return job == Job::bond ? "a bond run" : "an element run";
+  switch (job) {
+  case Job::pile:
+    return "a pile run";
+  case Job::bond:
+    return "a bond run";
+  case Job::triaxial:
+    return "a triaxial run";
+  case Job::element:
+    break;
+  }
+  return "an element run";
 }
 
 void draw(const Options& options)
@@ -326,27 +337,31 @@ void draw(const Options& options)
                               folders[k] + " " + described(other) +
                               ": they have no picture in common. Draw them one by one.");
   }
+  const bool has_stages = job == Job::element || job == Job::triaxial;
   const Stages stages = options.stage.empty() ? Stages{} : stages_of(options.stage);
-  require(stages.is_all() || job == Job::element,
-          "--stage " + options.stage + ": is for element runs; " + folders.front() +
-              " holds " + described(job) + ". Leave it out.");
+  require(stages.is_all() || has_stages,
+          "--stage " + options.stage + ": is for element and triaxial runs; " +
+              folders.front() + " holds " + described(job) + ". Leave it out.");
   if (!options.curves.empty()) {
     draw_curves(options, stages, histories);
     return;
   }
-  require(options.points.empty() || job == Job::element,
+  require(options.points.empty() || has_stages,
           "--points " + (options.points.empty() ? "" : options.points.front()) +
-              ": is for element runs and for --curve; " + folders.front() + " holds " +
-              described(job) + ". Leave it out.");
+              ": is for element and triaxial runs and for --curve; " + folders.front() +
+              " holds " + described(job) + ". Leave it out.");
   if (job == Job::element) {
-    draw_elements(options, stages, histories);
+    draw_stages(options, stages, histories, "element.png");
+  } else if (job == Job::triaxial) {
+    draw_stages(options, stages, histories, "triaxial.png");
   } else if (job == Job::bond) {
     draw_bonds(options, histories);
   } else {
-    require(histories.size() == 1,
-            std::to_string(histories.size()) +
-                " folders of pile runs: only bond and element runs, and the curves of "
-                "--curve, are drawn together. Draw them one by one.");
+    require(
+        histories.size() == 1,
+        std::to_string(histories.size()) +
+            " folders of pile runs: only bond, element and triaxial runs, and the curves "
+            "of --curve, are drawn together. Draw them one by one.");
     draw_pile(options, histories.front());
   }
 }
@@ -363,13 +378,14 @@ int main(int argc, char** argv)
       "one or several: loads.png and surface.png. Element runs, one or "
       "several: element.png (q and volumetric strain over axial strain, q and void ratio "
       "over p) or, where |q| stays below 1 % of p, isotropic.png (p over volumetric "
-      "strain, "
-      "void ratio over log p). Any runs, with --curve: curve.png.",
+      "strain, void ratio over log p). Triaxial runs: the same as triaxial.png, with the "
+      "volumetric strain of the middle third. Any runs, with --curve: curve.png.",
       "mergel-view");
   app.add_option(
          "DIR", options.folders,
-         "Results folder written by 'mergel pile', 'mergel bond' or 'mergel "
-         "element'; several of one job are drawn over each other (pile: with --curve)")
+         "Results folder written by 'mergel pile', 'mergel bond', 'mergel element' or "
+         "'mergel triaxial'; several of one job are drawn over each other (pile: with "
+         "--curve)")
       ->required();
   app.add_option("--output", options.output,
                  "Folder for the pictures (default: DIR; required with several)");
@@ -385,7 +401,8 @@ int main(int argc, char** argv)
          "columns (q/p), [unit] any that fits; repeat for more panels")
       ->allow_extra_args(false);
   app.add_option("--stage", options.stage,
-                 "Of element runs draw only from this stage on (2), or these stages (2-3); "
+                 "Of element and triaxial runs draw only from this stage on (2), or these "
+                 "stages (2-3); "
                  "axial and volumetric strain then count from its start (of a stage that "
                  "resumes: from that "
                  "of the stage resumed)");

@@ -29,6 +29,11 @@ history() {
     }
   }' >"$1/history.csv"
 }
+# FOLDER: history of a triaxial test, whose strains are those of its middle third
+triaxial() {
+  history "$1" 1.2
+  sed -i -e '1s/,volumetric strain of the stage \[-\]/,cell pressure [Pa]/; 1s/,volumetric strain \[-\]/,volumetric strain of the middle third [-]/' "$1/history.csv"
+}
 # FOLDER: history of a pile
 pile() {
   mkdir -p "$1"
@@ -37,6 +42,7 @@ pile() {
 history iso 0.005
 history sheared 1.2
 pile pile
+triaxial cell
 printf '# critical states\np [MPa],q [kPa]\n1,1200\n3,3500\n' >points.csv
 
 # PICTURE ARGUMENTS...: makes this picture and no other
@@ -60,6 +66,10 @@ makes element.png iso sheared # one sheared run is enough for the panels of q
 makes element.png sheared
 differs element.png sheared --stage 2
 differs element.png sheared --stage 2 --points points.csv
+makes triaxial.png cell
+differs triaxial.png cell --stage 2
+differs triaxial.png cell cell --label a --label b
+makes isotropic.png cell --stage 1-1
 makes isotropic.png sheared --stage 1-1 # only the stage before the shearing
 makes curve.png sheared --curve "axial strain:q/p"
 differs curve.png sheared --curve "axial strain:q/p [%]"
@@ -78,9 +88,10 @@ refused() {
     fail "wanted \"$what\", exit 1: $code $(cat log)"
 }
 refused 'sheared holds an element run and pile a pile run' sheared pile
+refused 'sheared holds an element run and cell a triaxial run' sheared cell
 refused '--stage 3-1: must be the number' sheared --stage 3-1
 refused 'no record of stage 3; the last is 2' sheared --stage 3
-refused '--stage 1: is for element runs' pile --stage 1
+refused '--stage 1: is for element and triaxial runs' pile --stage 1
 refused '--frame 0: is for' sheared --frame 0
 refused '--label: given 1 times for 2' sheared iso --label a
 refused "no column 'Q'" sheared --curve "p:Q"
@@ -88,7 +99,7 @@ refused 'wrong dimension' sheared --curve "p [mm]:q"
 refused 'with a colon between' sheared --curve "p"
 refused 'are the axes of no panel' sheared --curve "p:void ratio" --points points.csv
 refused 'are the axes of no panel' iso --points points.csv
-refused '--points points.csv: is for element runs' pile --points points.csv
+refused '--points points.csv: is for element and triaxial runs' pile --points points.csv
 refused 'cannot be read' sheared --points nowhere.csv
 printf '1,2\n3,4\n' >bare.csv
 refused 'with their names above' sheared --points bare.csv

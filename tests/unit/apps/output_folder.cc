@@ -82,7 +82,8 @@ const std::vector<std::string> own = {".history.partial.csv",
                                       "platens.pvd",
                                       "resolved.prm",
                                       "sample.h5",
-                                      "summary.json"};
+                                      "summary.json",
+                                      "triaxial.png"};
 
 } // namespace
 
@@ -163,6 +164,7 @@ TEST_CASE("Files of a user that have the names of mergel's are neither removed n
   const std::vector<std::string> names{"history.csv",
                                        "resolved.prm",
                                        "summary.json",
+                                       "triaxial.png",
                                        "sample.h5",
                                        "load.png",
                                        "checkpoint_000000000300.h5",

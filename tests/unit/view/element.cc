@@ -99,6 +99,28 @@ TEST_CASE("Only an element test has stage, p, q and void ratio", "[unit][view]")
   CHECK_FALSE(is_element_history(pile));
 }
 
+TEST_CASE("Without strains of each stage, those of the middle third count from its start",
+          "[unit][view]")
+{
+  dem::Table t = history();
+  t.columns[2].name = "volumetric strain of the middle third";
+  t.columns[4] = {"cell pressure", "Pa", t.columns[5].values};
+  REQUIRE(is_triaxial_history(t));
+  CHECK_FALSE(is_element_history(t));
+  const dem::Table cut = from_stages(t, stages_of("2"));
+  CHECK(cut.lines == std::vector<std::size_t>{6, 7, 8, 9});
+  const auto& volumetric = cut.column("volumetric strain of the middle third", "-");
+  for (std::size_t k = 0; k < 4; ++k)
+    CHECK(volumetric[k] == Approx(1.0 - states[k + 4].V / 0.93).margin(1e-14));
+  // A stage that resumes counts from the stage resumed, which drew nothing itself.
+  for (std::size_t k = 6; k < 8; ++k) t.columns[3].values[k] = 1.0 - states[k].z / 0.96;
+  const auto resumed = from_stages(t, stages_of("3"));
+  CHECK(resumed.column("volumetric strain of the middle third", "-")[0] ==
+        Approx(1.0 - 0.92 / 0.93));
+  const auto plots = element_plots({{{0, "a"}, t}}, stages_of("2"));
+  CHECK(plots[1].y.title() == "volumetric strain from stage 2 on (%)");
+}
+
 TEST_CASE("Titles name the stage from which a strain counts", "[unit][view]")
 {
   const auto plots = element_plots(run(1e6), stages_of("2"));
