@@ -171,7 +171,7 @@ void TriaxialOutput::record(const coupling::TriaxialRecord& r)
                 r.void_ratio,
                 r.membrane.volume,
                 r.membrane.strain,
-                r.membrane.strain - r.middle.volumetric,
+                r.membrane.penetration,
                 r.membrane.axial,
                 r.membrane.hoop,
                 r.membrane.wrinkled,

@@ -95,7 +95,7 @@ void TriaxialExtremes::add(const coupling::TriaxialRecord& r)
   raise(tilt, r.tilt);
   raise(stretch, r.membrane.stretch);
   void_ratio = r.void_ratio;
-  penetration = r.membrane.strain - r.middle.volumetric;
+  penetration = r.membrane.penetration;
   volumetric_strain = r.middle.volumetric;
   const double F = r.F_top + r.F_bottom;
   if (!(q > 0.0) || !(F > 0.0)) return;

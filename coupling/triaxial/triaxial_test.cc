@@ -299,6 +299,7 @@ MembraneRecord TriaxialTest::membrane_record() const
   const fem::NodalField& x = motion.state().x;
   r.volume = motion.enclosed().V;
   r.strain = 1.0 - r.volume / state_.volume_0;
+  r.penetration = r.strain - state_.middle.volumetric;
   const fem::MembraneTensions tensions = motion.membrane().tensions(x);
   r.axial = -tensions.axial / r.volume;
   r.hoop = 0.5 * tensions.hoop / r.volume;

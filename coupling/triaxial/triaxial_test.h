@@ -28,14 +28,15 @@ struct SpecimenGeometry {
 
 /// What a membrane does, at one time.
 struct MembraneRecord {
-  double volume = 0.0;     ///< enclosed by membrane and platens [m^3]
-  double strain = 0.0;     ///< volumetric, of that volume, compression positive [-]
-  double axial = 0.0;      ///< axial stress that it carries, over the specimen's area [Pa]
-  double hoop = 0.0;       ///< lateral stress by its hoop tension [Pa]
-  double delivered = 0.0;  ///< mean pressure of the membrane on the particles [Pa]
-  double wrinkled = 0.0;   ///< share of its triangles that wrinkle or are slack [-]
-  double stretch = 1.0;    ///< the largest [-]
-  std::size_t n_folds = 0; ///< of more than 90 degrees
+  double volume = 0.0;      ///< enclosed by membrane and platens [m^3]
+  double strain = 0.0;      ///< volumetric, of that volume, compression positive [-]
+  double penetration = 0.0; ///< that strain less the one of the middle third [-]
+  double axial = 0.0;       ///< axial stress that it carries, over the specimen's area [Pa]
+  double hoop = 0.0;        ///< lateral stress by its hoop tension [Pa]
+  double delivered = 0.0;   ///< mean pressure of the membrane on the particles [Pa]
+  double wrinkled = 0.0;    ///< share of its triangles that wrinkle or are slack [-]
+  double stretch = 1.0;     ///< the largest [-]
+  std::size_t n_folds = 0;  ///< of more than 90 degrees
 };
 
 /// One line of history.csv. Stresses and strains compression positive; forces and stresses of
