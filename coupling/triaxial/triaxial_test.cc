@@ -273,7 +273,10 @@ void TriaxialTest::require_inside() const
 dem::Outcome TriaxialTest::outcome() const
 {
   const TriaxialState& s = state_;
-  const SoilState now = soil(s.axial);
+  // An isotropic stage prescribes the cell pressure; the axial stress, a mean over some transits
+  // of a wave, comes after it.
+  const bool prescribes = s.active.controlled == Controlled::all;
+  const SoilState now = soil(prescribes ? s.pressure : s.axial);
   if (!s.active.is_approaching && s.active.has_reached_target(now))
     return dem::Outcome::done;
   if (!record_is_due()) return dem::Outcome::goes_on;
