@@ -70,7 +70,7 @@ private:
   TriaxialExtremes extremes_;
   /// Of stages begun; of the one under way unstable.
   std::vector<dem::Outcome> outcomes_;
-  double next_frame_ = 0.0; ///< axial strain [-]
+  double next_frame_ = 0.0; ///< axial strain of the next picture by strain [-]
 };
 
 std::vector<std::string> TriaxialJob::free_keys() const
@@ -165,6 +165,7 @@ void TriaxialJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
     output_.emplace(folder.path(), case_);
   });
   if (case_.pictures != TriaxialCase::Pictures::none) frame();
+  next_frame_ = case_.picture_every;
 }
 
 void TriaxialJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
