@@ -18,6 +18,7 @@ constexpr double smallest_stiffness = 0.7;
 /// Radius of the platens over that of the specimen, which may bulge [-].
 constexpr double platen_radius = 1.8;
 constexpr int platen_sides = 24;
+constexpr double most_nodes = 1e6; ///< of a membrane
 
 void declare_membrane(CaseFile& file, MembraneKeys& m)
 {
@@ -120,6 +121,7 @@ void declare_motion(CaseFile& file, TriaxialCase& c)
 void check_stages(const CaseFile& file, const TriaxialCase& c)
 {
   using dem::PathKind;
+  bool is_confined = false;
   for (std::size_t k = 0; k < max_stages; ++k) {
     if (c.stage_texts[k].empty()) break;
     for (const dem::LoadingStage& stage : read_stages(c.stage_texts[k])) {
@@ -144,6 +146,12 @@ void check_stages(const CaseFile& file, const TriaxialCase& c)
       if (stage.kind == PathKind::isotropic && !(stage.target > 0.0))
         file.refuse("Loading", key_of_stage(k),
                     "the target must be positive: a membrane cannot pull");
+      if (confines || stage.has_lateral || stage.kind == PathKind::compression)
+        is_confined = confines;
+      if (stage.kind == PathKind::triaxial && stage.target < 0.0 && !is_confined)
+        file.refuse("Loading", key_of_stage(k),
+                    "the platens do not pull: extension needs a cell pressure, by "
+                    "`isotropic` or `triaxial at STRESS`");
     }
   }
 }
@@ -223,6 +231,10 @@ void complete_membrane(CaseFile& file, TriaxialCase& c)
                 "particles would slip through the mesh, whose nodes are " +
                     mm(c.tube.node_distance()) +
                     " apart: at most the diameter of the smallest, " + mm(smallest));
+  if (static_cast<double>(c.tube.n_around) * c.tube.n_high > most_nodes)
+    file.refuse("Membrane", "node distance",
+                "the mesh would have more than a million nodes: half of d50 is " +
+                    mm(0.5 * d_50));
 }
 
 } // namespace
