@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <vtkDataArray.h>
@@ -76,8 +77,7 @@ vtkDataArray* require_array(vtkDataSet* data, const char* name, int components,
   vtkDataArray* array = data->GetPointData()->GetArray(name);
   require(array != nullptr && array->GetNumberOfComponents() == components,
           file.string() + ": no point array '" + name + "' with " +
-              std::to_string(components) +
-              " component(s). Was it written by 'mergel pile'?");
+              std::to_string(components) + " component(s). Was it written by mergel?");
   return array;
 }
 
@@ -119,9 +119,8 @@ fs::path file_at(double time, const fs::path& pvd)
                    " s, as particles.pvd has. Choose another --frame.");
 }
 
-} // namespace
-
-ResultFrame read_frame(const fs::path& folder, int number)
+/// The entry of this number in particles.pvd, and its number from 0.
+std::pair<dem::SeriesEntry, std::size_t> entry_of(const fs::path& folder, int number)
 {
   require(fs::is_directory(folder), folder.string() + ": is no folder.");
   const auto entries = series(folder / "particles.pvd");
@@ -130,22 +129,46 @@ ResultFrame read_frame(const fs::path& folder, int number)
   require(chosen >= 0 && chosen < n, "--frame " + std::to_string(number) + ": " +
                                          (folder / "particles.pvd").string() +
                                          " has frames 0 to " + std::to_string(n - 1) + ".");
+  const auto k = static_cast<std::size_t>(chosen);
+  return {entries[k], k};
+}
 
+vtkSmartPointer<vtkPolyData> read_particles(const fs::path& file)
+{
+  vtkSmartPointer<vtkPolyData> particles = read<vtkXMLPolyDataReader>(file);
+  scale(require_array(particles, "radius", 1, file));
+  require_array(particles, "damage", 1, file);
+  require_array(particles, "id", 1, file);
+  return particles;
+}
+
+} // namespace
+
+ResultFrame read_frame(const fs::path& folder, int number)
+{
+  const auto [entry, k] = entry_of(folder, number);
   ResultFrame frame;
-  frame.number = static_cast<std::size_t>(chosen);
-  frame.time = entries[frame.number].time;
-
-  const fs::path particles = folder / entries[frame.number].file;
-  frame.particles = read<vtkXMLPolyDataReader>(particles);
-  scale(require_array(frame.particles, "radius", 1, particles));
-  require_array(frame.particles, "damage", 1, particles);
-  require_array(frame.particles, "id", 1, particles);
-
+  frame.number = k;
+  frame.time = entry.time;
+  frame.particles = read_particles(folder / entry.file);
   frame.pile = read<vtkXMLPolyDataReader>(file_at(frame.time, folder / "pile.pvd"));
 
   const fs::path far_field = file_at(frame.time, folder / "far_field.pvd");
   frame.far_field = read<vtkXMLUnstructuredGridReader>(far_field);
   scale(require_array(frame.far_field, "displacement", 3, far_field));
+  return frame;
+}
+
+SpecimenFrame read_specimen(const fs::path& folder, int number)
+{
+  const dem::SeriesEntry entry = entry_of(folder, number).first;
+  SpecimenFrame frame;
+  frame.time = entry.time;
+  frame.particles = read_particles(folder / entry.file);
+  frame.platens = read<vtkXMLPolyDataReader>(file_at(frame.time, folder / "platens.pvd"));
+  if (fs::exists(folder / "membrane.pvd"))
+    frame.membrane =
+        read<vtkXMLPolyDataReader>(file_at(frame.time, folder / "membrane.pvd"));
   return frame;
 }
 

@@ -1,4 +1,4 @@
-/// Results of `mergel pile` at one instant, read for drawing.
+/// Results of `mergel pile` and `mergel triaxial` at one instant, read for drawing.
 #pragma once
 
 #include <filesystem>
@@ -25,5 +25,16 @@ struct ResultFrame {
 /// @throws InputError naming the file: missing, damaged, without an array, without that
 /// frame
 ResultFrame read_frame(const std::filesystem::path& folder, int number);
+
+/// One frame of a triaxial test, in mm too.
+struct SpecimenFrame {
+  double time = 0.0;                      ///< [s]
+  vtkSmartPointer<vtkPolyData> particles; ///< as above
+  vtkSmartPointer<vtkPolyData> platens;   ///< both
+  vtkSmartPointer<vtkPolyData> membrane;  ///< null without one
+};
+
+/// @throws InputError as above
+SpecimenFrame read_specimen(const std::filesystem::path& folder, int number);
 
 } // namespace mergel::apps

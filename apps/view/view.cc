@@ -1,6 +1,6 @@
 /// mergel-view: pictures of runs. Of a pile run: damage.png, displacement.png and load.png;
 /// of bond runs: loads.png and surface.png; of element runs: element.png or isotropic.png;
-/// of triaxial runs: triaxial.png or isotropic.png; of any: curve.png.
+/// of triaxial runs: triaxial.png or isotropic.png, and of one specimen.png; of any: curve.png.
 
 #include "apps/view/bond.h"
 #include "apps/view/bond_loads.h"
@@ -12,6 +12,7 @@
 #include "apps/view/results.h"
 #include "apps/view/run_plot.h"
 #include "apps/view/scene.h"
+#include "apps/view/specimen.h"
 #include "dem/error.h"
 #include "dem/io/table.h"
 
@@ -83,15 +84,6 @@ std::string caption(const dem::Table& history, double time)
                 "depth %.2f pile diameters     time %.4g ms     %.0f bonds broken", depth,
                 1e3 * time, broken);
   return text;
-}
-
-AssemblyPicture damage_picture()
-{
-  AssemblyPicture picture;
-  picture.array = "damage";
-  picture.colours = damage_colours();
-  picture.legend = "damage of\nthe bonds";
-  return picture;
 }
 
 /// Three decades below the power of ten above `largest` [mm]: beside a pile the particles
@@ -206,8 +198,8 @@ std::vector<RunName> run_names(const Options& options)
   const auto& folders = options.folders;
   require(!options.has_frame,
           "--frame " + std::to_string(options.frame) +
-              ": is for damage.png and displacement.png of a pile run; curves have no "
-              "frames. Leave it out.");
+              ": is for damage.png and displacement.png of a pile run and for specimen.png "
+              "of one triaxial run; curves have no frames. Leave it out.");
   require(options.labels.empty() || options.labels.size() == folders.size(),
           "--label: given " + std::to_string(options.labels.size()) + " times for " +
               std::to_string(folders.size()) +
@@ -283,6 +275,28 @@ void draw_stages(const Options& options, const Stages& stages,
     draw_panels(options, element_plots(runs, stages), runs, sheared);
 }
 
+/// The panels, and of one test the specimen at a time of its pictures.
+void draw_triaxial(const Options& options, const Stages& stages,
+                   const std::vector<dem::Table>& histories)
+{
+  const fs::path folder = options.folders.front();
+  const bool is_one = histories.size() == 1;
+  const bool has_pictures = is_one && fs::exists(folder / "particles.pvd");
+  Options of_panels = options;
+  of_panels.has_frame = options.has_frame && !has_pictures;
+  SpecimenFrame frame;
+  if (has_pictures)
+    frame = read_specimen(folder, options.frame); // refused before any picture
+  draw_stages(of_panels, stages, histories, "triaxial.png");
+  if (has_pictures) {
+    Page page(options.size.width, options.size.height);
+    draw_specimen(page, frame, histories.front());
+    save(options, page, picture_folder(options) / "specimen.png");
+  } else if (is_one) {
+    std::cout << "no specimen.png: the folder holds no particles.pvd\n";
+  }
+}
+
 void draw_curves(const Options& options, const Stages& stages,
                  const std::vector<dem::Table>& histories)
 {
@@ -353,7 +367,7 @@ void draw(const Options& options)
   if (job == Job::element) {
     draw_stages(options, stages, histories, "element.png");
   } else if (job == Job::triaxial) {
-    draw_stages(options, stages, histories, "triaxial.png");
+    draw_triaxial(options, stages, histories);
   } else if (job == Job::bond) {
     draw_bonds(options, histories);
   } else {
@@ -379,7 +393,9 @@ int main(int argc, char** argv)
       "several: element.png (q and volumetric strain over axial strain, q and void ratio "
       "over p) or, where |q| stays below 1 % of p, isotropic.png (p over volumetric "
       "strain, void ratio over log p). Triaxial runs: the same as triaxial.png, with the "
-      "volumetric strain of the middle third. Any runs, with --curve: curve.png.",
+      "volumetric strain of the middle third, and of one run "
+      "specimen.png (particles through the membrane, and cut open). Any runs, with "
+      "--curve: curve.png.",
       "mergel-view");
   app.add_option(
          "DIR", options.folders,
@@ -414,7 +430,7 @@ int main(int argc, char** argv)
       ->allow_extra_args(false);
   const auto* frame = app.add_option(
       "--frame", options.frame,
-      "Frame of a pile run to draw, from 0; negative: from the end (default: "
+      "Frame of a pile or triaxial run to draw, from 0; negative: from the end (default: "
       "the last)");
   const auto* size =
       app.add_option(

@@ -70,6 +70,7 @@ makes triaxial.png cell
 differs triaxial.png cell --stage 2
 differs triaxial.png cell cell --label a --label b
 makes isotropic.png cell --stage 1-1
+grep -q 'no specimen.png' log || fail "a triaxial test without fields: $(cat log)"
 makes isotropic.png sheared --stage 1-1 # only the stage before the shearing
 makes curve.png sheared --curve "axial strain:q/p"
 differs curve.png sheared --curve "axial strain:q/p [%]"

@@ -82,6 +82,7 @@ const std::vector<std::string> own = {".history.partial.csv",
                                       "platens.pvd",
                                       "resolved.prm",
                                       "sample.h5",
+                                      "specimen.png",
                                       "summary.json",
                                       "triaxial.png"};
 
