@@ -16,12 +16,15 @@ using Controlled = dem::ActiveStage::Controlled;
 namespace {
 
 /// Steps over which the rate of a stage is ramped up: some transits of a wave.
-constexpr std::size_t steps_of_ramp = 2000;
+constexpr std::size_t steps_of_ramp = 4000;
 /// Limit of the velocity of a platen that holds a stress, over that of the test.
 constexpr double rate_limit_factor = 10.0;
 /// Smallest offset that starts an approach, over the reference pressure.
 constexpr double offset_threshold = 0.01;
-constexpr std::size_t steps_held = 2000; ///< after an approach
+constexpr std::size_t steps_held = 2000; ///< after an approach, or an isotropic stage
+/// Bulk modulus over the axial stiffness of particles that follow the strain [-]: in
+/// `element_small` 0.37.
+constexpr double bulk_share = 1.0 / 3.0;
 /// Axial stress at one platen in extension below which it counts as lifted off, over the cell
 /// pressure. The membrane presses single particles against a platen that has left the specimen:
 /// 0.011 with seven particles across.
@@ -150,6 +153,13 @@ void TriaxialTest::begin_stage(std::size_t stage)
   s.largest_progress = 0.0;
 }
 
+/// Whether an isotropic stage is at its target. It prescribes the cell pressure; the axial
+/// stress, a mean over some transits of a wave, comes after it.
+bool TriaxialTest::is_consolidated() const
+{
+  return state_.active.has_reached_target(soil(state_.pressure));
+}
+
 /// Cell pressure and velocities of the platens for the next step.
 void TriaxialTest::control(double rate)
 {
@@ -160,7 +170,10 @@ void TriaxialTest::control(double rate)
   bool holds_axial = axial.holds_stress;
   double held = -axial.stress;
   if (stage.controlled == Controlled::all && !stage.is_approaching) {
-    s.pressure += stage.direction * s.stiffness * rate * system_.dt;
+    if (s.n_held == 0 && !is_consolidated())
+      s.pressure += stage.direction * bulk_share * s.stiffness * rate * system_.dt;
+    else
+      ++s.n_held;
     held = s.pressure;
     holds_axial = true;
   } else if (cell[0].holds_stress) {
@@ -194,7 +207,7 @@ void TriaxialTest::approach(double rate)
   c.remaining = std::max(0.0, c.remaining - change / c.offset.cwiseAbs().maxCoeff());
   if (c.remaining > 0.0 || ++s.n_held < steps_held) return;
   c = dem::begin_stage(control_.stages[s.stage], c, soil(s.axial), size());
-  s.n_in_stage = 0;
+  s.n_in_stage = s.n_held = 0;
   s.largest_progress = 0.0;
 }
 
@@ -274,11 +287,10 @@ void TriaxialTest::require_inside() const
 dem::Outcome TriaxialTest::outcome() const
 {
   const TriaxialState& s = state_;
-  // An isotropic stage prescribes the cell pressure; the axial stress, a mean over some transits
-  // of a wave, comes after it.
-  const bool prescribes = s.active.controlled == Controlled::all;
-  const SoilState now = soil(prescribes ? s.pressure : s.axial);
-  if (!s.active.is_approaching && s.active.has_reached_target(now))
+  const bool is_isotropic = s.active.controlled == Controlled::all;
+  const SoilState now = soil(is_isotropic ? s.pressure : s.axial);
+  if (is_isotropic && s.n_held >= steps_held) return dem::Outcome::done;
+  if (!is_isotropic && !s.active.is_approaching && s.active.has_reached_target(now))
     return dem::Outcome::done;
   if (!record_is_due()) return dem::Outcome::goes_on;
   const bool extends = s.active.direction < 0.0 && s.active.controlled == Controlled::axial;

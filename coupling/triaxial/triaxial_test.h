@@ -131,6 +131,7 @@ private:
   dem::SoilState soil(double axial_stress, double lateral, const dem::Vec3& size_0) const;
   double full_rate(const dem::SoilState& now) const;
   double wave_speed() const;
+  bool is_consolidated() const;
   void control(double rate);
   void approach(double rate);
   void read_strain();
