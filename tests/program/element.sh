@@ -4,6 +4,7 @@
 #
 # usage: tests/program/element.sh MERGEL
 . "$(dirname "$0")/preamble.sh"
+. "$root/tests/program/results.sh"
 case_file=$root/apps/cases/element_small.prm
 # STAGE1 STAGE2 STAGE3 STAGE4 OUTPUT [options]
 run() {
@@ -11,14 +12,6 @@ run() {
   local out=$5
   shift 5
   "$mergel" element "$case_file" --set "Specimen/edge x=3.9 mm" --set "Specimen/edge y=3.9 mm" --set "Specimen/edge z=3.9 mm" "${stages[@]}" "$@" --output "$out" >"$out.log" 2>&1
-}
-# FILE NAME: the first value of this name in a summary
-value() { awk -F': ' -v name="\"$2" 'index($1, name) { print $2 + 0; exit }' "$1/summary.json"; }
-# FILE NAME LOW HIGH
-within() {
-  local v
-  v=$(value "$1" "$2")
-  awk -v v="$v" -v a="$3" -v b="$4" 'BEGIN { exit !(v >= a && v <= b) }' || fail "$1: $2 = $v, not in $3 to $4"
 }
 
 run "isotropic to p = 1 MPa" "triaxial to axial strain = 0.3 %" "unload-reload to q = 1 MPa" \
