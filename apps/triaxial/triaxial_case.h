@@ -17,7 +17,7 @@ struct MembraneKeys {
   double node_distance = unset; ///< [m]
   coupling::MembraneEnds ends = coupling::MembraneEnds::free;
   double contact_modulus = unset, friction = 0.0; ///< with the particles [Pa], [-]
-  int largest_subcycle = 4;
+  int largest_subcycle = 1;
 };
 
 /// Section `Platens`.

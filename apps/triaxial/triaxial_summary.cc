@@ -103,7 +103,7 @@ void TriaxialExtremes::add(const coupling::TriaxialRecord& r)
   if (!r.is_approach)
     raise(platen_difference,
           2.0 * (r.F_top - r.F_bottom) / F * r.whole.axial() / reference);
-  own_load = (std::abs(r.membrane.axial) + std::abs(r.membrane.hoop)) / q;
+  own_load = (std::abs(r.membrane.axial) + std::abs(r.membrane.hoop)) / reference;
 }
 
 std::string describe(const TriaxialCase& c, const coupling::TriaxialTest& test)
@@ -144,7 +144,7 @@ void summarise(Summary& summary, const TriaxialCase& c, const coupling::Triaxial
   summary.number("volumetric strain at the end [-]", extremes.volumetric_strain);
   summary.number("void ratio at the end [-]", extremes.void_ratio);
   summary.number("membrane penetration at the end [-]", extremes.penetration);
-  summary.number("own load of the membrane over the largest q [-]", extremes.own_load);
+  summary.number("own load of the membrane [-]", extremes.own_load);
   summary.number("largest difference of the platens over the largest q [-]",
                  extremes.platen_difference);
   summary.number("largest stretch of the membrane [-]", extremes.stretch);
@@ -173,7 +173,7 @@ void summarise(Summary& summary, const TriaxialCase& c, const coupling::Triaxial
   if (test.has_membrane()) {
     out << "membrane: penetration " << 100.0 * extremes.penetration
         << " % of the volume, largest stretch " << extremes.stretch << ", own load "
-        << 100.0 * extremes.own_load << " % of the largest q"
+        << 100.0 * extremes.own_load << " % of the largest q or cell pressure"
         << (extremes.own_load > 0.02 ? " (above 2 %: q is corrected for it)" : "") << '\n';
   }
   out << "platen forces differ by " << 100.0 * extremes.platen_difference

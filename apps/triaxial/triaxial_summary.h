@@ -23,7 +23,8 @@ struct TriaxialExtremes {
   double platen_difference = 0.0; ///< largest difference of the platen stresses over the
       ///< largest q so far, once that is a tenth of the last [-]
   double energy_error = 0.0, inertial_number = 0.0, tilt = 0.0, stretch = 1.0;
-  double own_load = 0.0; ///< of the membrane, over the largest q so far [-]
+  double own_load =
+      0.0; ///< of the membrane, over the largest q so far or the cell pressure [-]
   double void_ratio = 0.0, penetration = 0.0,
          volumetric_strain = 0.0; ///< the last ones [-]
 
