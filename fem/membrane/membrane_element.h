@@ -88,18 +88,18 @@ struct MembraneStrain {
   [[gnu::always_inline]] MembraneStress<Real> stress(double mu,
                                                      Compression compression) const
   {
-    const auto [l1, l2, is_taut, is_slack] = stretch(compression);
+    const auto now = stretch(compression);
     const Real zero{}, inv = 1.0 / det, inv2 = inv * inv;
     const MembraneStress<Real> taut{mu * (1.0 - C22 * inv2), mu * (1.0 - C11 * inv2),
                                     mu * C12 * inv2, 0.5 * mu * (C11 + C22 + inv - 3.0)};
     // N1 N1 = (C - l2^2 I)/(l1^2 - l2^2); where it wrinkles, l1 > 1 > l2.
-    const Real l1_2 = l1 * l1, l2_2 = l2 * l2, inv_l1 = 1.0 / l1,
+    const Real l1_2 = now.l1 * now.l1, l2_2 = now.l2 * now.l2, inv_l1 = 1.0 / now.l1,
                along = mu * (1.0 - inv_l1 * inv_l1 * inv_l1) / (l1_2 - l2_2);
     const MembraneStress<Real> wrinkled{along * (C11 - l2_2), along * (C22 - l2_2),
                                         along * C12,
                                         0.5 * mu * (l1_2 + 2.0 * inv_l1 - 3.0)};
     const auto of_state = [&](const Real& if_taut, const Real& if_wrinkled) {
-      return choose(is_taut, if_taut, choose(is_slack, zero, if_wrinkled));
+      return choose(now.is_taut, if_taut, choose(now.is_slack, zero, if_wrinkled));
     };
     return {of_state(taut.S11, wrinkled.S11), of_state(taut.S22, wrinkled.S22),
             of_state(taut.S12, wrinkled.S12), of_state(taut.W, wrinkled.W)};

@@ -68,8 +68,8 @@ TEST_CASE(
     const double dt = 1e-3 / n;
     const auto at = [&](int k) -> Vec3 {
       const double a = 2.0 * pi * k / n;
-      return {amplitude * R * (std::cos(a) * across + 0.3 * std::sin(a) * along) +
-              Vec3(0.0, 0.0, (0.985 + 0.01 * std::sin(3.0 * a)) * R)};
+      return amplitude * R * (std::cos(a) * across + 0.3 * std::sin(a) * along) +
+             Vec3(0.0, 0.0, (0.985 + 0.01 * std::sin(3.0 * a)) * R);
     };
     Result r;
     double work = 0.0, largest = 0.0;
