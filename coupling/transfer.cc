@@ -27,10 +27,18 @@ Transfer::Transfer(Eigen::SparseMatrix<double, Eigen::RowMajor> N) : N_(std::mov
                              " of the transfer matrix sums to " + std::to_string(sum) +
                              ", not 1");
   }
+  is_identity_ = N_.rows() == N_.cols() && N_.nonZeros() == N_.rows();
+  for (Eigen::Index k = 0; is_identity_ && k < N_.outerSize(); ++k)
+    for (Row entry(N_, k); entry; ++entry)
+      is_identity_ = entry.col() == k && entry.value() == 1.0;
 }
 
 void Transfer::to_wall(const Nodal& v_s, Nodal& v_wall) const
 {
+  if (is_identity_) {
+    v_wall = v_s;
+    return;
+  }
   v_wall.assign(n_wall(), Eigen::Vector3d::Zero());
   for (Eigen::Index k = 0; k < N_.outerSize(); ++k)
     for (Row entry(N_, k); entry; ++entry)
@@ -39,6 +47,10 @@ void Transfer::to_wall(const Nodal& v_s, Nodal& v_wall) const
 
 void Transfer::to_structure(const Nodal& f_wall, Nodal& f_s) const
 {
+  if (is_identity_) {
+    f_s = f_wall;
+    return;
+  }
   f_s.assign(n_structure(), Eigen::Vector3d::Zero());
   for (Eigen::Index k = 0; k < N_.outerSize(); ++k)
     for (Row entry(N_, k); entry; ++entry)

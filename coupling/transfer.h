@@ -29,6 +29,7 @@ public:
 
 private:
   Eigen::SparseMatrix<double, Eigen::RowMajor> N_;
+  bool is_identity_ = false; ///< nothing is to be computed then
 };
 
 /// Wall nodes that each follow one node of the structure: a single 1 in each row.

@@ -47,7 +47,7 @@ struct LaneRows {
 };
 
 /// Collects the forces on the nodes, with the bits of VectorSum: each term is rounded to the
-/// quantum by itself, as in LaneSum. The wall has them at the end.
+/// quantum by itself, as in LaneSum. The wall has them at the end, in place of what it had.
 class NodalForces {
 public:
   explicit NodalForces(std::vector<VectorSum>& f) : f_(f), sums_(f.size(), RowBits{}) {}
@@ -65,7 +65,10 @@ private:
   void add(std::size_t node, const Row& force)
   {
     const Row scaled = force * ForceSum::scale;
-    if (any(!(magnitude(scaled) < largest_lane_term))) return f_[node].add(vec3(force));
+    if (any(!(magnitude(scaled) < largest_lane_term))) {
+      flush();
+      return f_[node].add(vec3(force));
+    }
     sums_[node] += rounded(scaled);
     if (++n_ == most_lane_terms) flush();
   }
@@ -73,16 +76,19 @@ private:
   void flush()
   {
     for (std::size_t k = 0; k < f_.size(); ++k) {
+      if (!is_begun_) f_[k].clear();
       f_[k].x.raw() += sums_[k][0];
       f_[k].y.raw() += sums_[k][1];
       f_[k].z.raw() += sums_[k][2];
       sums_[k] = RowBits{};
     }
+    is_begun_ = true;
     n_ = 0;
   }
 
   std::vector<VectorSum>& f_;
   std::vector<RowBits> sums_;
+  bool is_begun_ = false; ///< f_ has the sums of this step
   int n_ = 0;
 };
 
@@ -430,7 +436,6 @@ private:
 void add_wall_forces(Wall& wall, const PairMaterials& material, double dt, Particles& p,
                      PairLosses& losses)
 {
-  for (VectorSum& f : wall.f) f.clear();
   wall.contact_forces.clear();
   NodalForces nodes(wall.f);
   WallStep step{wall, dt, p, losses, nodes};
