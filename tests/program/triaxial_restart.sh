@@ -16,7 +16,7 @@ case_file=$root/apps/cases/triaxial_small.prm
 tiny=(--set "Specimen/diameter=3.6 mm" --set "Specimen/height=5 mm" --set "Platens/top=spherical seat"
   --set "Bond/softening displacement=0.0004 mm" --set "Bond/softening rotation=0.004 rad"
   --set "Strength variability/distribution=Weibull" --set "Strength variability/coefficient of variation=0.3"
-  --set "Membrane/density=20000 kg/m3" --set "Output/record every=5e-5"
+  --set "Membrane/density=20000 kg/m3" --set "Membrane/largest subcycle=4" --set "Output/record every=5e-5"
   --set "Loading/stage 1=isotropic to p = 0.2 MPa" --set "Loading/stage 2=triaxial at 0.4 MPa to axial strain = 0.05 %"
   --set "Loading/stage 3=unload-reload to q = 0.2 MPa" --set "Loading/stage 4=resume to axial strain = 0.06 %")
 
