@@ -46,7 +46,7 @@ row() {
     END { printf "%s,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g\n", name, q / 1e6, 100 * strain,
           100 * $at["axial strain [-]"], $at["q [Pa]"] / 1e6, 100 * $at["volumetric strain of the middle third [-]"],
           100 * $at["membrane penetration [-]"],
-          $at["cell pressure [Pa]"] > 0 ? $at["pressure on the particles [Pa]"] / $at["cell pressure [Pa]"] : 0,
+          ($at["cell pressure [Pa]"] > 0 ? $at["pressure on the particles [Pa]"] / $at["cell pressure [Pa]"] : 0),
           $at["lateral stress of the middle third [Pa]"] / 1e6, $at["axial stress of the middle third [Pa]"] / 1e6,
           error }' "$1/history.csv"
 }
