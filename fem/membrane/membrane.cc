@@ -1,9 +1,10 @@
 #include "fem/membrane/membrane.h"
 
+#include "fem/node_lanes.h"
+
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -129,18 +130,12 @@ void Membrane::start(const NodalField& x, double pressure, NodalField& f)
 {
   finish();
   f.setZero(4, n_nodes());
-  const auto row = [](const double* from) {
-    NodeLanes lanes;
-    std::memcpy(&lanes, from, sizeof lanes);
-    return lanes;
-  };
   for (std::size_t k = 0; k < batches_.size(); ++k) {
     const auto& corner = corners_[k];
     Vector<Lanes> a, b;
     for (std::size_t l = 0; l < n_lanes; ++l) {
-      const NodeLanes x1 = row(x.data() + 4 * corner[3 * l]),
-                      to_2 = row(x.data() + 4 * corner[3 * l + 1]) - x1,
-                      to_3 = row(x.data() + 4 * corner[3 * l + 2]) - x1;
+      const NodeLanes x1 = load(x, corner[3 * l]), to_2 = load(x, corner[3 * l + 1]) - x1,
+                      to_3 = load(x, corner[3 * l + 2]) - x1;
       a.x[l] = to_2[0];
       a.y[l] = to_2[1];
       a.z[l] = to_2[2];
@@ -154,10 +149,9 @@ void Membrane::start(const NodalField& x, double pressure, NodalField& f)
         std::min<std::size_t>(n_lanes, n_mine_ - k * static_cast<std::size_t>(n_lanes));
     for (std::size_t l = 0; l < n; ++l)
       for (std::size_t c = 0; c < 3; ++c) {
-        double* to = f.data() + 4 * corner[3 * l + c];
-        const NodeLanes sum =
-            row(to) + NodeLanes{on.at[c].x[l], on.at[c].y[l], on.at[c].z[l], 0.0};
-        std::memcpy(to, &sum, sizeof sum);
+        const auto node = corner[3 * l + c];
+        const NodeLanes force{on.at[c].x[l], on.at[c].y[l], on.at[c].z[l], 0.0};
+        store(f, node, load(f, node) + force);
       }
   }
   if (comm_ != MPI_COMM_NULL)

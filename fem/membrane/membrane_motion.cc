@@ -1,6 +1,7 @@
 #include "fem/membrane/membrane_motion.h"
 
-#include <cstring>
+#include "fem/node_lanes.h"
+
 #include <stdexcept>
 #include <utility>
 
@@ -10,23 +11,6 @@ namespace {
 
 /// Windows after which the work of the pressure is added: it changes little in these.
 constexpr std::size_t windows_between_volumes = 50;
-
-NodeLanes load(const NodalField& field, Eigen::Index a)
-{
-  NodeLanes lanes;
-  std::memcpy(&lanes, field.data() + 4 * a, sizeof lanes);
-  return lanes;
-}
-
-void store(NodalField& field, Eigen::Index a, const NodeLanes& lanes)
-{
-  std::memcpy(field.data() + 4 * a, &lanes, sizeof lanes);
-}
-
-double sum(const NodeLanes& s)
-{
-  return (s[0] + s[1]) + s[2];
-}
 
 /// Work of a pressure p on the side of a tube while its volume changed: the polygons at its
 /// ends are not part of it.

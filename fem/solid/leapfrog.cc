@@ -1,7 +1,8 @@
 #include "fem/solid/leapfrog.h"
 
+#include "fem/node_lanes.h"
+
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 #include <utility>
 
@@ -32,27 +33,6 @@ void Leapfrog::load_interface_forces(std::span<const Vec3> f)
     now_.f_interface.col(a).head<3>() = (solid_.P[a] * f[k]).array();
   }
 }
-
-namespace {
-
-NodeLanes load(const NodalField& field, Eigen::Index a)
-{
-  NodeLanes lanes;
-  std::memcpy(&lanes, field.data() + 4 * a, sizeof lanes);
-  return lanes;
-}
-
-void store(NodalField& field, Eigen::Index a, const NodeLanes& lanes)
-{
-  std::memcpy(field.data() + 4 * a, &lanes, sizeof lanes);
-}
-
-double sum(const NodeLanes& s)
-{
-  return (s[0] + s[1]) + s[2];
-}
-
-} // namespace
 
 struct Leapfrog::Powers {
   NodeLanes interface = {0.0, 0.0, 0.0, 0.0}, gravity = interface, initial = interface,
