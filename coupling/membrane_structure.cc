@@ -85,15 +85,6 @@ MembraneStructure::MembraneStructure(fem::Membrane membrane, const fem::Tube& tu
 {
 }
 
-double MembraneStructure::axial_force() const
-{
-  const fem::Tube& tube = motion_.tube();
-  double sum = 0.0;
-  for (int i = 0; i < tube.n_around; ++i)
-    sum += motion_.state().f_own(2, tube.node(i, tube.n_high));
-  return sum;
-}
-
 Interface MembraneStructure::interface(const dem::ContactLaw& contact) const
 {
   const fem::SurfaceMesh& mesh = motion_.membrane().rest();

@@ -26,8 +26,6 @@ public:
   double pressure() const { return motion_.state().pressure; }
 
   const fem::MembraneMotion& motion() const { return motion_; }
-  /// Force of stretch and pressure on the nodes tied to the upper platen, along z [N].
-  double axial_force() const;
 
   Interface interface(const dem::ContactLaw& contact) const override;
   bool moves() const override { return true; }

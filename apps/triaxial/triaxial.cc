@@ -94,7 +94,7 @@ std::vector<dem::Outcome> load_outcomes(const dem::State& state, std::size_t n_s
   return outcomes;
 }
 
-/// Refuse a change of the stages up to the present one, or of the membrane that follows.
+/// Refuse a change of the stages up to the present one.
 void TriaxialJob::check_restart(const CaseFile& file, const Restart& restart) const
 {
   const auto change =

@@ -239,10 +239,6 @@ private:
   std::vector<PatchFeature>& found_;
 };
 
-} // namespace
-
-namespace {
-
 /// Calls visit(t) for the candidate's triangles that may be nearer to c than `beyond` [m]:
 /// n_lanes of them are looked at together.
 template <class Visit>
