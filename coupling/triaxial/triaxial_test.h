@@ -16,7 +16,7 @@ namespace mergel::coupling {
 struct TriaxialControl : dem::ElementControl {
   /// Largest stress rho c v of the wave that a platen of the velocity v sends into the specimen
   /// [Pa]; c is the wave speed of the specimen if its particles follow the strain.
-  double wave_stress = 2e4;
+  double wave_stress = 4e4;
 };
 
 /// Geometry of the specimen before the test.
