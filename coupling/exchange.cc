@@ -13,7 +13,7 @@ const Nodal& Exchange::sum_forces(const dem::Wall& wall)
 {
   const double start = dem::wall_clock();
   f_wall_.resize(wall.f.size());
-  for (std::size_t k = 0; k < wall.f.size(); ++k) f_wall_[k] = wall.f[k].value();
+  for (std::size_t k = 0; k < wall.f.size(); ++k) f_wall_[k] = wall.f.value(k);
   transfer_.to_structure(f_wall_, f_s_);
   exchange_seconds += dem::wall_clock() - start;
   return f_s_;

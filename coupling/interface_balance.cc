@@ -23,7 +23,7 @@ InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
   dem::Vec3 force = sums.force.value(), moment = sums.moment.value();
   double power = 0.0, sum_f = 0.0, sum_m = 0.0, sum_p = 0.0;
   for (std::size_t k = 0; k < wall.f.size(); ++k) {
-    const dem::Vec3 f = wall.f[k].value();
+    const dem::Vec3 f = wall.f.value(k);
     sum_f += f.norm();
     sum_m += wall.x[k].norm() * f.norm();
     sum_p += wall.v[k].norm() * f.norm();

@@ -1,5 +1,7 @@
 #include "dem/assembly/springs.h"
 
+#include "dem/walls/patch_features.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -104,15 +106,14 @@ void add_wall(Springs& s, const Assembly& a, const Closing& closing, const Wall&
   const std::size_t number = closing.walls_move
                                  ? static_cast<std::size_t>(&wall - a.walls.data())
                                  : WallSpring::held;
-  std::vector<PatchFeature> features;
+  PatchFeatures features;
   for (std::size_t c = 0; c < wall.contacts.size(); ++c) {
     const ParticleState& b = a.particles.state[wall.contacts[c].particle];
     const double g_a = activation_gap(wall.material) * b.S;
-    find_features_within(wall, wall.listed[c], b.x, b.R + g_a + closing.limit * b.S,
-                         features);
+    features.find_within(wall, wall.listed[c], b.x, b.R + g_a + closing.limit * b.S);
     Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
     std::vector<WallSpring> springs; // by feature
-    for (const PatchFeature& f : features) {
+    for (const PatchFeature& f : features.found()) {
       const Vec3 v = b.v - at(wall.v, wall.topology, f.at);
       const Vec3 n = (f.point - b.x) / f.distance;
       const double overlap = closing.overlap(g_a - (f.distance - b.R), v.dot(n), b.S);

@@ -6,7 +6,7 @@ namespace mergel::dem {
 
 namespace {
 
-void add_wide(void* in, void* inout, int* n, MPI_Datatype*)
+void add_in_wide(void* in, void* inout, int* n, MPI_Datatype*)
 {
   // By copies, because the buffers of MPI need not be aligned for 128 bits.
   for (std::size_t k = 0; k < static_cast<std::size_t>(*n) * sizeof(ExactWide);
@@ -19,28 +19,35 @@ void add_wide(void* in, void* inout, int* n, MPI_Datatype*)
   }
 }
 
+} // namespace
+
 /// The sums as 64-bit integers, where all of them have room in these on every rank: nearly
 /// always. Half the bytes, and an operation that MPI knows. Returns whether they had.
-bool add_narrow(const std::vector<ExactWide*>& terms, int n_ranks, MPI_Comm comm)
+bool ExactReduction::add_narrow(int n_ranks, MPI_Comm comm)
 {
-  const ExactWide limit = (ExactWide{1} << 62) / n_ranks;
-  std::vector<std::int64_t> values(terms.size() + 1, 0);
-  std::int64_t& n_too_large = values.back();
-  for (std::size_t k = 0; k < terms.size(); ++k) {
-    const ExactWide term = *terms[k];
-    if (term < limit && term > -limit)
-      values[k] = static_cast<std::int64_t>(term);
-    else
-      n_too_large = 1;
+  const std::int64_t limit = (std::int64_t{1} << 62) / n_ranks;
+  std::vector<std::int64_t> values;
+  std::size_t n = terms_.size() + 1;
+  for (const NodalSums* sums : nodal_) n += 3 * sums->size();
+  values.reserve(n);
+  bool has_room = true;
+  for (const NodalSums* sums : nodal_) has_room &= sums->append_narrow(values, limit);
+  for (const ExactWide* term : terms_) {
+    has_room &= *term<limit&& * term> - limit;
+    values.push_back(static_cast<std::int64_t>(*term));
   }
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT64_T,
-                MPI_SUM, comm);
-  if (n_too_large > 0) return false;
-  for (std::size_t k = 0; k < terms.size(); ++k) *terms[k] = values[k];
+  values.resize(n, 0);
+  values.back() = !has_room;
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(n), MPI_INT64_T, MPI_SUM,
+                comm);
+  if (values.back() > 0) return false;
+  const std::int64_t* from = values.data();
+  for (NodalSums* sums : nodal_) from = sums->take_narrow(from);
+  for (ExactWide* term : terms_) *term = *from++;
   return true;
 }
 
-void add_all(const std::vector<ExactWide*>& terms, MPI_Comm comm)
+void ExactReduction::add_wide(MPI_Comm comm)
 {
   static const auto wide = [] {
     MPI_Datatype type;
@@ -50,23 +57,24 @@ void add_all(const std::vector<ExactWide*>& terms, MPI_Comm comm)
   }();
   static const auto add = [] {
     MPI_Op op;
-    MPI_Op_create(add_wide, 1, &op);
+    MPI_Op_create(add_in_wide, 1, &op);
     return op;
   }();
   std::vector<ExactWide> values;
-  values.reserve(terms.size());
-  for (const ExactWide* t : terms) values.push_back(*t);
+  const auto append = [&](const ExactWide& raw) { values.push_back(raw); };
+  for (const NodalSums* sums : nodal_) visit_raw(*sums, append);
+  for (const ExactWide* term : terms_) values.push_back(*term);
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), wide, add,
                 comm);
-  for (std::size_t k = 0; k < terms.size(); ++k) *terms[k] = values[k];
+  auto from = values.begin();
+  for (NodalSums* sums : nodal_) visit_raw(*sums, [&](ExactWide& raw) { raw = *from++; });
+  for (ExactWide* term : terms_) *term = *from++;
 }
-
-} // namespace
 
 void ExactReduction::run(const Communicator& comm)
 {
-  if (comm.is_alone() || terms_.empty()) return;
-  if (!add_narrow(terms_, comm.n_ranks(), comm.comm_)) add_all(terms_, comm.comm_);
+  if (comm.is_alone() || is_empty()) return;
+  if (!add_narrow(comm.n_ranks(), comm.comm_)) add_wide(comm.comm_);
   ++comm.n_reductions_;
 }
 

@@ -78,6 +78,20 @@ WallTopology make_topology(const std::vector<Vec3>& x, std::vector<Triangle> tri
     }
     ++topo.n_patches;
   }
+
+  topo.n_fans.assign(n, {1, 1, 1});
+  for (std::size_t t = 0; t < n; ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int node = topo.triangles[t][k];
+      std::uint8_t fans = 0;
+      for (const int around : topo.around[uz(node)]) {
+        const Triangle& other = topo.triangles[uz(around)];
+        const std::size_t here = other[0] == node ? 0 : other[1] == node ? 1 : 2;
+        if (topo.patch[uz(around)] == topo.patch[t] && topo.across[uz(around)][here] < 0)
+          ++fans;
+      }
+      if (fans > 1) topo.n_fans[t][k] = fans;
+    }
   return topo;
 }
 

@@ -9,7 +9,7 @@ Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
   wall.topology = make_topology(x, std::move(triangles));
   wall.x = x;
   wall.v.assign(x.size(), Vec3::Zero());
-  wall.f.resize(x.size());
+  wall.f = NodalSums(x.size());
   wall.material = material;
   return wall;
 }
@@ -31,9 +31,7 @@ EnergySum stored_energy(const Wall& wall, const PairMaterials& material, const P
 
 double power(const Wall& wall)
 {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < wall.f.size(); ++k) sum -= wall.f[k].value().dot(wall.v[k]);
-  return sum;
+  return -wall.f.dot(wall.v);
 }
 
 Vec3 at(const std::vector<Vec3>& nodal, const WallTopology& topo, const Anchor& a)

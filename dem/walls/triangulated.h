@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dem/laws/bond_law.h"
+#include "dem/math/nodal_sums.h"
 #include "dem/walls/wall_contact.h"
 
 #include <array>
@@ -35,6 +36,9 @@ struct WallTopology {
   int n_patches = 0;
   /// By triangle: the neighbour across edge (k, k+1) in the same patch, or -1.
   std::vector<std::array<int, 3>> across;
+  /// By triangle: the separate fans of its patch around each of its corners; 1 where they lie in
+  /// a ring.
+  std::vector<std::array<std::uint8_t, 3>> n_fans;
   std::vector<std::vector<int>> around; ///< by node: its triangles
 };
 
@@ -54,12 +58,20 @@ struct Anchor {
 struct NearTriangle {
   int triangle;
   double clearance; ///< gap to the particle less g_a S [m]
+  /// Numbers of its corners and edges (k, k+1) among those of its candidate.
+  std::array<std::uint16_t, 3> node{}, edge{};
+  /// Bit k: it is the first of the candidate's triangles with this corner, with this edge.
+  std::uint8_t owns_node = 0, owns_edge = 0;
+  /// Bit k: counter-clockwise around corner k it is the first of a fan.
+  std::uint8_t begins_fan = 0;
+  std::array<std::uint8_t, 3> n_fans{}; ///< as in WallTopology
 };
 
 /// A candidate as it was found.
 struct ListedCandidate {
-  Vec3 x = Vec3::Zero();          ///< of the particle then [m]
-  std::size_t first = 0, end = 0; ///< its triangles among Wall::near
+  Vec3 x = Vec3::Zero();                ///< of the particle then [m]
+  std::size_t first = 0, end = 0;       ///< its triangles among Wall::near
+  std::size_t n_nodes = 0, n_edges = 0; ///< that these have
   double clearance = std::numeric_limits<double>::infinity(); ///< the smallest one [m]
 
   /// Bound of the motion of the particle against the wall since then [m].
@@ -102,7 +114,7 @@ struct WallContactForce {
 struct Wall {
   WallTopology topology;
   std::vector<Vec3> x, v;              ///< of the nodes [m], [m/s]; set by the caller
-  std::vector<VectorSum> f;            ///< on the nodes in the last step, of all ranks [N]
+  NodalSums f;                         ///< on the nodes in the last step, of all ranks [N]
   std::vector<Vec3> x_listed;          ///< nodes when the candidates were found [m]
   std::vector<WallContact> contacts;   ///< candidates, ascending in (particle, patch)
   std::vector<ListedCandidate> listed; ///< by contact
@@ -122,36 +134,6 @@ struct Wall {
 
 Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
                const ContactLaw& material);
-
-/// A point of a patch at which the distance to a centre c is stationary over the patch: on a
-/// face, an edge or a corner.
-struct PatchFeature {
-  Anchor at;
-  Vec3 point;      ///< [m]
-  Vec3 n;          ///< unit, from c to the point
-  double distance; ///< from c [m]
-  double overlap;  ///< R + g_a S - distance, > 0 [m]
-  /// 1 for a smallest or largest distance, -1 for a saddle (an edge at the bottom of a valley),
-  /// less where more ways lead down. All signs of a flat or smooth patch sum to 1. A corner at
-  /// which several parts of the patch meet counts once for each.
-  double sign;
-};
-
-/// The features of the candidate's patch in contact. The energy of the contact is the sum of
-/// sign times that of each overlap. So a flat patch acts as one contact wherever its edges and
-/// corners lie, the sides of a deep valley act each by itself, and between these force and
-/// energy are continuous: where a side begins to act, so does the edge, and they cancel.
-/// Source: Morse theory, as for the Euler characteristic; dem/README.md, Walls.
-/// @param wall_travel bound of the motion of a node since the candidate was listed [m]
-/// @param found replaced
-/// @throws NumericalError when the centre is on the wrong side of the wall
-void find_patch_features(const Wall& wall, const ListedCandidate& candidate,
-                         const ParticleState& particle, double wall_travel,
-                         std::vector<PatchFeature>& found);
-
-/// The same, of all that lie within `reach` [m] of a centre x; an overlap is reach - distance.
-void find_features_within(const Wall& wall, const ListedCandidate& candidate, const Vec3& x,
-                          double reach, std::vector<PatchFeature>& found);
 
 /// Unit normal of a triangle, to the side of the particles.
 Vec3 normal(const Wall& wall, int t);
@@ -179,7 +161,7 @@ struct WallSums {
 WallSums sum_contact_forces(const Wall& wall); ///< of this rank
 
 /// Add contacts and bonds to p.load and wall.f over the step dt [s] that ends now.
-/// @throws NumericalError naming the particle, as find_patch_features()
+/// @throws NumericalError naming the particle, as PatchFeatures::find()
 void add_wall_forces(Wall& wall, const PairMaterials& material, double dt, Particles& p,
                      PairLosses& losses);
 

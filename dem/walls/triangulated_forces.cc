@@ -3,8 +3,8 @@
 #include "dem/math/lane_sum.h"
 #include "dem/pairs/batch.h"
 #include "dem/pairs/strength.h"
+#include "dem/walls/patch_features.h"
 #include "dem/walls/triangle.h"
-#include "dem/walls/triangulated.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,6 @@
 namespace mergel::dem {
 
 namespace {
-
-using RowBits = MaskOf<Row>; // 64-bit integers
 
 Row row_of(const Vec3& a)
 {
@@ -46,59 +44,12 @@ struct LaneRows {
   }
 };
 
-/// Collects the forces on the nodes, with the bits of VectorSum: each term is rounded to the
-/// quantum by itself, as in LaneSum. The wall has them at the end, in place of what it had.
-class NodalForces {
-public:
-  explicit NodalForces(std::vector<VectorSum>& f) : f_(f), sums_(f.size(), RowBits{}) {}
-  ~NodalForces() { flush(); }
-  NodalForces(const NodalForces&) = delete;
-  NodalForces& operator=(const NodalForces&) = delete;
-
-  /// Add shares of a force to the corners of a triangle. @param weight of the corners
-  void add(const Triangle& t, const Row& weight, const Row& force)
-  {
-    for (int k = 0; k < 3; ++k) add(uz(t[uz(k)]), weight[k] * force);
-  }
-
-private:
-  void add(std::size_t node, const Row& force)
-  {
-    const Row scaled = force * ForceSum::scale;
-    if (any(!(magnitude(scaled) < largest_lane_term))) {
-      flush();
-      return f_[node].add(vec3(force));
-    }
-    sums_[node] += rounded(scaled);
-    if (++n_ == most_lane_terms) flush();
-  }
-
-  void flush()
-  {
-    for (std::size_t k = 0; k < f_.size(); ++k) {
-      if (!is_begun_) f_[k].clear();
-      f_[k].x.raw() += sums_[k][0];
-      f_[k].y.raw() += sums_[k][1];
-      f_[k].z.raw() += sums_[k][2];
-      sums_[k] = RowBits{};
-    }
-    is_begun_ = true;
-    n_ = 0;
-  }
-
-  std::vector<VectorSum>& f_;
-  std::vector<RowBits> sums_;
-  bool is_begun_ = false; ///< f_ has the sums of this step
-  int n_ = 0;
-};
-
 /// What the loops over contacts and bonds share.
 struct WallStep {
   Wall& wall;
   double dt;
   Particles& p;
   PairLosses& losses;
-  NodalForces& nodes;
 
   const Triangle& triangle(int t) const { return wall.topology.triangles[uz(t)]; }
   /// Of a corner of a triangle.
@@ -115,8 +66,16 @@ struct WallStep {
     Load& load = p.load[particle];
     add_row(load.f.data(), F);
     add_row(load.t.data(), M);
-    nodes.add(triangle(t), weight, -F);
+    add_to_nodes(t, weight, -F);
     wall.contact_forces.push_back({particle, vec3(F), vec3(x), vec3(v)});
+  }
+
+  /// Velocity of the wall at an anchor [m/s].
+  Vec3 at(const Anchor& a) const
+  {
+    const Triangle& t = triangle(a.triangle);
+    return a.weight[0] * wall.v[uz(t[0])] + a.weight[1] * wall.v[uz(t[1])] +
+           a.weight[2] * wall.v[uz(t[2])];
   }
 
   /// Where a force acts on a particle, its opposite acts on the wall.
@@ -124,8 +83,15 @@ struct WallStep {
   void add_to_wall(Index particle, const Vec3& force, const PatchFeature& where,
                    const Vec3& v)
   {
-    nodes.add(triangle(where.at.triangle), row_of(where.at.weight), row_of(-force));
+    add_to_nodes(where.at.triangle, row_of(where.at.weight), row_of(-force));
     wall.contact_forces.push_back({particle, force, where.point, v});
+  }
+
+  /// Shares of a force to the corners of a triangle. @param weight of the corners
+  void add_to_nodes(int t, const Row& weight, const Row& force)
+  {
+    for (int k = 0; k < 3; ++k)
+      if (weight[k] != 0.0) wall.f.add(uz(triangle(t)[uz(k)]), weight[k] * force);
   }
 };
 
@@ -191,14 +157,15 @@ private:
     WallContact& contact = wall.contacts[c];
     const ParticleState& particle = step_.p.state[contact.particle];
     with_particle_id(step_.p.id[contact.particle], [&] {
-      find_patch_features(wall, wall.listed[c], particle, moved_, features_);
+      features_.find(wall, wall.listed[c], particle, moved_);
       return 0;
     });
-    if (features_.empty()) return open(c);
-    if (features_.size() > 1 || features_.front().sign != 1.0)
+    const std::vector<PatchFeature>& found = features_.found();
+    if (found.empty()) return open(c);
+    if (found.size() > 1 || found.front().sign != 1.0)
       return add_several(contact, particle);
-    const PatchFeature& only = features_.front(); // the same bits as in a batch
-    const Vec3 v = at(wall.v, wall.topology, only.at);
+    const PatchFeature& only = found.front(); // the same bits as in a batch
+    const Vec3 v = step_.at(only.at);
     const Vec3 f = add_wall_contact(
         law_, {only.n, only.distance - particle.R, only.point, v}, step_.dt, particle,
         step_.p.load[contact.particle], contact, step_.losses);
@@ -209,28 +176,28 @@ private:
   /// shear force, whose spring has the overlap that has their energy.
   void add_several(WallContact& contact, const ParticleState& particle)
   {
-    const Wall& wall = step_.wall;
     const ContactSides<double> sides = sides_at_wall(particle.R);
-    const auto& nearest = *std::max_element(
-        features_.begin(), features_.end(),
-        [](const PatchFeature& a, const PatchFeature& b) { return a.overlap < b.overlap; });
+    const PatchFeature& nearest = features_.nearest();
     const double f_nearest = normal_force(law_, sides, nearest.overlap),
                  e_nearest = contact_energy(law_, sides, nearest.overlap, 0.0);
-    Vec3 pressure = Vec3::Zero(), x = pressure, v = pressure;
+    Vec3 pressure = Vec3::Zero(), x = pressure, v = pressure, v_nearest = pressure;
     double energy = 0.0, pressing = 0.0;
-    for (const PatchFeature& f : features_) {
+    acting_.clear();
+    for (const PatchFeature& f : features_.found()) {
       const double f_n = f.sign * normal_force(law_, sides, f.overlap);
+      acting_.push_back({f_n, step_.at(f.at)});
+      if (&f == &nearest) v_nearest = acting_.back().v;
       pressure += f_n * f.n;
       energy += f.sign * contact_energy(law_, sides, f.overlap, 0.0);
       pressing += f_n;
       x += f_n * f.point;
-      v += f_n * at(wall.v, wall.topology, f.at);
+      v += f_n * acting_.back().v;
     }
     // What presses in all is at least the force of the nearest feature, but where the particle
     // bridges several pits: there the nearest one makes up for it.
     const double all = std::max(pressing, f_nearest), at_nearest = 1.0 - pressing / all;
     x = x / all + at_nearest * nearest.point;
-    v = v / all + at_nearest * at(wall.v, wall.topology, nearest.at);
+    v = v / all + at_nearest * v_nearest;
     // The energy of a law grows with a power of the overlap: f_n overlap/energy.
     const double power = f_nearest * nearest.overlap / e_nearest;
     const double overlap =
@@ -247,12 +214,13 @@ private:
 
     Load& load = step_.p.load[contact.particle];
     load.t += (x - particle.x).cross(contact.f_s); // normals pass through the centre
-    for (const PatchFeature& f : features_) {
-      const double f_n = f.sign * normal_force(law_, sides, f.overlap);
+    for (std::size_t k = 0; k < acting_.size(); ++k) {
+      const PatchFeature& f = features_.found()[k];
+      const double f_n = acting_[k].f_n;
       Vec3 force = f_n / all * contact.f_s - f_n * f.n;
       if (&f == &nearest) force += at_nearest * contact.f_s;
       load.f += force;
-      step_.add_to_wall(contact.particle, force, f, at(wall.v, wall.topology, f.at));
+      step_.add_to_wall(contact.particle, force, f, acting_[k].v);
     }
   }
 
@@ -332,7 +300,13 @@ private:
   std::size_t contact_[n_lanes];
   Index particle_[n_lanes];
   int triangle_[n_lanes];
-  std::vector<PatchFeature> features_; ///< of the contact at hand
+  /// Normal force of a feature, and the velocity of the wall there.
+  struct Acting {
+    double f_n; ///< [N]
+    Vec3 v;     ///< [m/s]
+  };
+  PatchFeatures features_;     ///< of the contact at hand
+  std::vector<Acting> acting_; ///< by feature of a contact with several
 };
 
 /// Bonds to a wall, a batch at a time.
@@ -437,8 +411,8 @@ void add_wall_forces(Wall& wall, const PairMaterials& material, double dt, Parti
                      PairLosses& losses)
 {
   wall.contact_forces.clear();
-  NodalForces nodes(wall.f);
-  WallStep step{wall, dt, p, losses, nodes};
+  wall.f.clear();
+  WallStep step{wall, dt, p, losses};
   std::visit([&](const auto& law) { ContactForces(step, law).add_all(); }, wall.material);
   std::visit([&](const auto& law) { BondForces(step, law).add_all(); }, material.bond);
 }

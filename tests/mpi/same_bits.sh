@@ -9,6 +9,12 @@ shift
 . "$(dirname "$0")/../program/preamble.sh"
 ranks() { on_ranks "$@"; }
 
+ranks 1 "$scenes" sums >one || fail "sums on one rank"
+[ "$(wc -l <one)" -eq 20 ] || fail "sums: twenty lines on one rank"
+for n in 2 3 4; do
+  ranks $n "$scenes" sums >other || fail "sums on $n ranks"
+  cmp one other || fail "sums on $n ranks differ from one"
+done
 for scene in block turning debris periodic hertz element varied; do
   ranks 1 "$scenes" "$scene" >one || fail "$scene on one rank"
   [ "$(wc -l <one)" -eq 10 ] || fail "$scene: ten lines on one rank"

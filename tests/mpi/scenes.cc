@@ -10,6 +10,8 @@
 ///   element    the same box, compressed along z until bonds break; stress-controlled x, y
 ///   debris     the block at rest, hit by a few fragments that fly between it and a wall
 ///   varied     the same, with strengths that vary from particle to particle
+///   sums       none of these: forces on nodes that are added over the ranks, of ordinary size
+///              and without room in 64 bits on one rank or on all
 ///   rebuild    lists are also built at every 7th step
 ///   rebalance  particles change ranks at every 50th step, by arbitrary weights; histories
 ///              that two ranks hold are compared
@@ -25,6 +27,7 @@
 #include "dem/io/state/step_numbers.h"
 #include "dem/math/random.h"
 #include "dem/pairs/strength.h"
+#include "dem/parallel/reduction.h"
 
 #include <cinttypes>
 #include <cstdio>
@@ -242,6 +245,30 @@ void start(apps::WorkingAssembly& w)
   w.dt = w.dt_before = default_safety * w.stable_step.limit;
 }
 
+/// Forces on five nodes, each term from one rank, of up to 10^`decade` N.
+void add_up(double decade, const Communicator& comm)
+{
+  NodalSums sums(5);
+  ForceSum beside;
+  for (std::uint64_t k = 0; k < 20000; ++k) {
+    const auto draw = [&](std::uint64_t c) {
+      return std::pow(10.0, decade) * (2.0 * uniform(5, k, c) - 1.0);
+    };
+    const Row force{draw(0), draw(1), draw(2), 0.0};
+    if (static_cast<int>(k % 7) % comm.n_ranks() != comm.rank()) continue;
+    sums.add(k % 5, force);
+    beside.add(draw(3));
+  }
+  ExactReduction all;
+  all.add(sums);
+  all.add(beside);
+  all.run(comm);
+  if (comm.rank() != 0) return;
+  for (std::size_t k = 0; k < sums.size(); ++k)
+    std::printf("%g %zu %a %a %a %a\n", decade, k, sums.value(k).x(), sums.value(k).y(),
+                sums.value(k).z(), beside.value());
+}
+
 void run(const std::string& name, const Options& o)
 {
   const bool rebuilds = o.rebuilds, rebalances = o.rebalances;
@@ -298,7 +325,12 @@ int main(int argc, char** argv)
         o.checkpoint = argv[++k];
       }
     }
-    run(argc > 1 ? argv[1] : "", o);
+    if (argc > 1 && argv[1] == std::string("sums"))
+      // 64 bits hold 8 kN
+      for (const double decade : {-3.0, 0.0, 2.0, 6.0})
+        add_up(decade, Communicator(MPI_COMM_WORLD));
+    else
+      run(argc > 1 ? argv[1] : "", o);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "mpi_scenes: %s\n", e.what());
     MPI_Abort(MPI_COMM_WORLD, 1);

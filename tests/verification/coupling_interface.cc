@@ -103,7 +103,7 @@ TEST_CASE("interface force, moment and power balance to 1e-12", "[verification][
     dem::advance(assembly, dt, dt, [&](double h) { exchange_step(exchange, wall, h); });
     worst = coupling::worst(worst, coupling::interface_balance(exchange, wall, {}));
     for (std::size_t k = 0; k < wall.f.size(); ++k)
-      work = std::max(work, wall.f[k].value().norm());
+      work = std::max(work, wall.f.value(k).norm());
   }
   REQUIRE(work > 0.01); // forces act on the interface [N]
   // Round-off of sums over 100 nodes, plus the quantum of the exact sums, 1e-15 N.
@@ -128,7 +128,7 @@ TEST_CASE("the wall gets the momentum and energy that the particles lose",
   const double far_start = far_field.energies().net();
   Vec3 impulse = Vec3::Zero();
   for (int n = 0; n < 2000; ++n) {
-    for (const dem::VectorSum& f : wall.f) impulse += dt * f.value();
+    for (std::size_t k = 0; k < wall.f.size(); ++k) impulse += dt * wall.f.value(k);
     dem::advance(assembly, dt, dt, [&](double h) { exchange_step(exchange, wall, h); });
   }
   const auto end = dem::energy_balance(assembly, dt);

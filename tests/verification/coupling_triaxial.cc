@@ -99,7 +99,7 @@ dem::Mat3 virial_of(const dem::Wall& wall)
 {
   dem::Mat3 sum = dem::Mat3::Zero();
   for (std::size_t k = 0; k < wall.x.size(); ++k)
-    sum -= wall.f[k].value() * wall.x[k].transpose();
+    sum -= wall.f.value(k) * wall.x[k].transpose();
   return 0.5 * (sum + sum.transpose());
 }
 
@@ -144,7 +144,7 @@ TEST_CASE("A specimen at rest in a membrane has the virial of cell pressure, pla
   for (Eigen::Index a = 0; a < x.cols(); ++a) {
     pressure_zz += (all(2, a) - own(2, a)) * x(2, a);
     if (motion.free()(2, a) == 0.0)
-      ends -= (walls[2].f[static_cast<std::size_t>(a)].value().z() + all(2, a)) * x(2, a);
+      ends -= (walls[2].f.value(static_cast<std::size_t>(a)).z() + all(2, a)) * x(2, a);
   }
   zz += pressure_zz + ends;
   CHECK(std::abs(zz - virial_of(walls[2])(2, 2)) < 1e-3 * size);

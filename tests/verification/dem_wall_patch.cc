@@ -126,7 +126,8 @@ TEST_CASE("Forces of a patch on the nodes are the gradient of its stored energy"
       const double size = probe.force_at(x).norm();
       n_several += probe.wall.contact_forces.size() > 1;
       std::vector<Vec3> f;
-      for (const VectorSum& sum : probe.wall.f) f.push_back(sum.value());
+      for (std::size_t k = 0; k < probe.wall.f.size(); ++k)
+        f.push_back(probe.wall.f.value(k));
       for (std::size_t node = 0; node < f.size(); ++node)
         for (int d = 0; d < 3; ++d) {
           const double at = probe.wall.x[node][d];
@@ -158,8 +159,8 @@ TEST_CASE("A particle over several pits stores an energy below 0", "[verificatio
     const Load& load = probe.p.load[0];
     Vec3 force = load.f, moment = x.cross(load.f) + load.t;
     for (std::size_t node = 0; node < probe.wall.x.size(); ++node) {
-      force += probe.wall.f[node].value();
-      moment += probe.wall.x[node].cross(probe.wall.f[node].value());
+      force += probe.wall.f.value(node);
+      moment += probe.wall.x[node].cross(probe.wall.f.value(node));
     }
     CHECK(force.norm() <= 1e-11 * load.f.norm()); // 0 before they touch
     CHECK(moment.norm() <= 1e-11 * R * load.f.norm());

@@ -2,7 +2,7 @@
 // that it gets by itself.
 #include "tests/support/dem_scene.h"
 
-#include "dem/walls/triangulated.h"
+#include "dem/walls/patch_features.h"
 
 #include <catch2/catch.hpp>
 
@@ -114,16 +114,17 @@ TEST_CASE("A contact and a bond of a wall have the same bits among others and al
   EnergySum slip, plastic;
   for (AtWall& one : alone) {
     for (std::size_t k = 0; k < f.size(); ++k) {
-      f[k].x += one.wall.f[k].x;
-      f[k].y += one.wall.f[k].y;
-      f[k].z += one.wall.f[k].z;
+      const VectorSum sum = one.wall.f.sum(k);
+      f[k].x += sum.x;
+      f[k].y += sum.y;
+      f[k].z += sum.z;
     }
     slip += one.losses.slip;
     plastic += one.losses.plastic;
     n_sliding += one.losses.slip.value() > 0.0;
   }
   for (std::size_t k = 0; k < f.size(); ++k)
-    CHECK(f[k].value() == together.wall.f[k].value());
+    CHECK(f[k].value() == together.wall.f.value(k));
   CHECK(slip.value() == together.losses.slip.value());
   CHECK(plastic.value() == together.losses.plastic.value());
   CHECK(together.losses.broken > 0);
@@ -138,7 +139,7 @@ TEST_CASE("A contact in a batch has the bits of the contact that is computed alo
   AtWall s;
   for (const ParticleState& b : particles_on(s.wall)) s.p.add(b);
   rebuild_wall(s.wall, material, s.p, 0.1 * R);
-  std::vector<PatchFeature> features;
+  PatchFeatures features;
   int n_alone = 0;
   for (int n = 0; n < 40; ++n) {
     std::vector<WallContact> before = s.wall.contacts;
@@ -149,14 +150,15 @@ TEST_CASE("A contact in a batch has the bits of the contact that is computed alo
     const double moved = travel(s.wall);
     for (std::size_t c = 0; c < before.size(); ++c) {
       const Index i = before[c].particle;
-      find_patch_features(s.wall, s.wall.listed[c], p.state[i], moved, features);
-      if (features.size() == 1) {
-        const PatchFeature& f = features.front();
+      features.find(s.wall, s.wall.listed[c], p.state[i], moved);
+      const std::vector<PatchFeature>& found = features.found();
+      if (found.size() == 1) {
+        const PatchFeature& f = found.front();
         const Vec3 v = at(s.wall.v, s.wall.topology, f.at);
         add_wall_contact(law, {f.n, f.distance - R, f.point, v}, dt, p.state[i], p.load[i],
                          before[c], losses);
         ++n_alone;
-      } else if (features.empty()) {
+      } else if (found.empty()) {
         open_contact(law, R, before[c], losses);
       } else { // several features are no batch
         p.load[i] = s.p.load[i];

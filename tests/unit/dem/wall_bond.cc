@@ -90,8 +90,8 @@ TEST_CASE("The reaction of a wall bond at the nodes balances force and moment",
   const Vec3 on_particle = s.move_wall({1e-6, 2e-6, -1e-6}, false);
   Vec3 force = on_particle, moment = s.p.state[0].x.cross(on_particle) + s.p.load[0].t;
   for (std::size_t n = 0; n < s.wall.x.size(); ++n) {
-    force += s.wall.f[n].value();
-    moment += s.wall.x[n].cross(s.wall.f[n].value());
+    force += s.wall.f.value(n);
+    moment += s.wall.x[n].cross(s.wall.f.value(n));
   }
   CHECK(on_particle.norm() > 0.1);
   CHECK(force.norm() < 1e-12 * on_particle.norm() + 1e-14);

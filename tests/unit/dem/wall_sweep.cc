@@ -1,6 +1,6 @@
 #include "tests/support/dem_scene.h"
 
-#include "dem/walls/triangulated.h"
+#include "dem/walls/patch_features.h"
 
 #include <catch2/catch.hpp>
 
@@ -146,7 +146,7 @@ TEST_CASE("Force, moment and power at the nodes balance those on the particle",
   const double degrees = GENERATE(0.0, 15.0, -15.0);
   Wall wall = folded_square(degrees * pi / 180.0);
   std::mt19937_64 random(3);
-  std::vector<PatchFeature> features;
+  PatchFeatures features;
   double worst_force = 0.0, worst_moment = 0.0, worst_power = 0.0;
   int n_in_contact = 0, n_shared = 0, n_separate = 0;
   for (int trial = 0; trial < 2000; ++trial) {
@@ -159,13 +159,14 @@ TEST_CASE("Force, moment and power at the nodes balance those on the particle",
     for (Vec3& v : wall.v) v = 1e-3 * random_vector(random);
     wall.contacts.clear();
     rebuild_wall(wall, {}, p, 1e-4);
-    find_patch_features(wall, wall.listed.at(0), p.state[0], 0.0, features);
-    if (features.empty()) continue;
-    n_shared += features.size() > 1;
+    features.find(wall, wall.listed.at(0), p.state[0], 0.0);
+    const std::vector<PatchFeature>& found = features.found();
+    if (found.empty()) continue;
+    n_shared += found.size() > 1;
     double signs = 0.0;
-    for (const PatchFeature& f : features) signs += f.sign;
+    for (const PatchFeature& f : found) signs += f.sign;
     // The sides of a valley act each by itself where the edge is out of reach.
-    const bool separate = signs == 2.0 && features.size() == 2;
+    const bool separate = signs == 2.0 && found.size() == 2;
     CHECK((signs == 1.0 || (separate && degrees > 0.0)));
     n_separate += separate;
     PairLosses losses;
@@ -177,7 +178,7 @@ TEST_CASE("Force, moment and power at the nodes balance those on the particle",
     Vec3 force = on_particle, moment = x.cross(on_particle) + p.load[0].t;
     double power = 0.0;
     for (std::size_t node = 0; node < wall.x.size(); ++node) {
-      const Vec3 f = wall.f[node].value();
+      const Vec3 f = wall.f.value(node);
       force += f;
       moment += wall.x[node].cross(f);
       power += f.dot(wall.v[node]);
