@@ -57,6 +57,26 @@ double CoupledSystem::largest_damping(const StructureSystem& system) const
   return std::max(assembly.motion.damping, system.damping());
 }
 
+void CoupledSystem::move_structures(double h)
+{
+  for (Member& s : structures) {
+    if (!moves(s)) continue;
+    s.exchange.sum_forces(wall_of(s));   // f_s = N^T f_wall at x^n
+    s.exchange.step_structure(h);        // v_s^{n+1/2}
+    s.exchange.move_wall(wall_of(s), h); // v_wall = N v_s, x_wall^{n+1}
+  }
+}
+
+void CoupledSystem::step_with_particles_held()
+{
+  if (n_steps % dem::steps_between_step_checks == 0) check_time_step();
+  move_structures(dt);
+  dem::add_forces(assembly, dt);
+  dt_before = dt;
+  time += dt;
+  ++n_steps;
+}
+
 void CoupledSystem::find_time_step()
 {
   const StructureSystem system = structure_system();

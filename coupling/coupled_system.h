@@ -94,6 +94,9 @@ struct CoupledSystem {
   template <class MoveOthers>
   void step(MoveOthers&& move_others);
 
+  /// The same while the particles are held: only the structures move. Collective.
+  void step_with_particles_held();
+
   /// Compute the stable step from the largest frequency of all that acts now, and take the
   /// time step from it. To be called where what takes part has changed. Collective.
   void find_time_step();
@@ -134,6 +137,7 @@ private:
   /// Walls without particles. Takes the structures out of `specs`.
   CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>& specs);
 
+  void move_structures(double h);           ///< under the forces at x^n, with their walls
   StructureSystem structure_system() const; ///< of the structures that move
   double largest_damping(const StructureSystem& system) const;
   void check_time_step();
@@ -151,12 +155,7 @@ void CoupledSystem::step(MoveOthers&& move_others)
   if (n_steps % steps_between_load_checks == 0) balance_load();
 
   const auto move_walls = [&](double h) {
-    for (Member& s : structures) {
-      if (!moves(s)) continue;
-      s.exchange.sum_forces(wall_of(s));   // f_s = N^T f_wall at x^n
-      s.exchange.step_structure(h);        // v_s^{n+1/2}
-      s.exchange.move_wall(wall_of(s), h); // v_wall = N v_s, x_wall^{n+1}
-    }
+    move_structures(h);
     move_others(h);
   };
   try {

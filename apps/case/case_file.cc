@@ -91,6 +91,15 @@ void CaseFile::identified_by(const std::string& sum, const std::vector<std::stri
   }
 }
 
+void CaseFile::not_needed_at_zero(const std::string& section, const std::string& number,
+                                  const std::vector<std::string>& keys)
+{
+  for (CaseKey& key : impl_->keys)
+    if (key.section == impl_->open_section &&
+        (keys.empty() || std::find(keys.begin(), keys.end(), key.name) != keys.end()))
+      key.needed_by = {section, number};
+}
+
 void CaseFile::quantity(const std::string& key, double& target, const std::string& si_unit,
                         const Range& range, const std::string& sentence,
                         const std::string& shown_unit)

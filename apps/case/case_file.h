@@ -93,6 +93,12 @@ public:
   /// differ in these keys of it: a path is no identity where the content is known.
   void identified_by(const std::string& sum, const std::vector<std::string>& keys);
 
+  /// The keys of the open section declared so far, or only these of them, may be left out where
+  /// this number is zero: nothing depends on them there. It is of a section declared before.
+  /// Without such a number in the case they must be given as any other.
+  void not_needed_at_zero(const std::string& section, const std::string& number,
+                          const std::vector<std::string>& keys = {});
+
   /// A number with a unit. `target` is in `si_unit`, a coherent SI unit ("Pa", "m", "rad"),
   /// and so are the bounds of `range`; help and resolved case use `shown_unit` ("mm").
   void quantity(const std::string& key, double& target, const std::string& si_unit,

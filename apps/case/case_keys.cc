@@ -56,6 +56,12 @@ bool CaseFile::Impl::exists(const CaseKey& key)
                                        choice.resolved) != key.values.end();
 }
 
+bool CaseFile::Impl::may_be_left_out(const CaseKey& key)
+{
+  const CaseKey* number = find(key.needed_by.first, key.needed_by.second);
+  return number && number->is_active && std::stod(number->resolved) == 0.0;
+}
+
 void CaseFile::Impl::refuse_inactive(const CaseKey& key)
 {
   std::vector<std::string> values;

@@ -34,6 +34,8 @@ struct CaseKey {
   int line = 0;                          ///< in the case file; 0 if not there
   bool is_override = false;              ///< from --set
   std::string sum = {}; ///< key of its section that tells its content; may be empty
+  /// Section and name of a number; where that is zero the key may be left out. May be empty.
+  std::pair<std::string, std::string> needed_by = {};
 };
 
 /// What a CaseFile holds.
@@ -67,6 +69,9 @@ struct CaseFile::Impl {
 
   /// Whether the key exists, its choice being read already.
   bool exists(const CaseKey& key);
+
+  /// Whether a key without a default may be left out, the numbers before it being read already.
+  bool may_be_left_out(const CaseKey& key);
 
   /// Refuse a key that does not exist in this case, naming the choice that it belongs to.
   [[noreturn]] void refuse_inactive(const CaseKey& key);

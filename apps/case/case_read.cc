@@ -93,6 +93,10 @@ void CaseFile::read(const std::string& text, const std::string& name,
     const bool is_given = key.is_override || key.line > 0;
     key.is_active = impl_->exists(key);
     if (!key.is_active) continue;
+    if (key.is_required && !is_given && impl_->may_be_left_out(key)) {
+      key.is_active = false;
+      continue;
+    }
     if (key.is_required && !is_given) {
       const auto line = impl_->section_lines.find(key.section);
       throw InputError(

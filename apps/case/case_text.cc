@@ -114,7 +114,11 @@ void CaseFile::help(std::ostream& out) const
           key.choice.empty()
               ? ""
               : "Where " + key.choice + " = " + joined(key.values, " | ") + ": ";
-      out << wrapped(condition + key.sentence, "      ", columns);
+      const std::string exception = !key.is_required || key.needed_by.second.empty()
+                                        ? ""
+                                        : " Not needed where " + key.needed_by.first + "/" +
+                                              key.needed_by.second + " = 0.";
+      out << wrapped(condition + key.sentence + exception, "      ", columns);
     }
   }
 }

@@ -85,6 +85,7 @@ void declare(CaseFile& file, BondKeys& b)
   file.number("radius ratio", b.section.lambda_b, above_to(0.0, 1.0),
               "Bond radius over the smaller particle radius.");
   declare_laws(file, "bond law", b.law);
+  file.not_needed_at_zero("Specimen", "coordination");
 }
 
 void declare(CaseFile& file, ContactKeys& contact)

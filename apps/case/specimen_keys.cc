@@ -151,10 +151,12 @@ void declare_packing(CaseFile& file, SpecimenKeys& k)
     file.number("generation friction", s.friction, non_negative,
                 "Friction coefficient between the particles until they come to rest.");
   }
-  file.number("coordination", s.coordination, positive,
-              "Target Z = 2 N_bonds/N; the bond gap may limit it to less.");
+  file.number("coordination", s.coordination, non_negative,
+              "Target Z = 2 N_bonds/N; the bond gap may limit it to less. 0: granular, no "
+              "particle is bonded to another.");
   file.quantity("bond gap", s.g_b, "m", non_negative,
                 "Largest gap that is bonded, g_b at S = 1; scales with S, Eq. 8.", "mm");
+  file.not_needed_at_zero("Specimen", "coordination", {"bond gap"});
   file.integer("seed", s.seed, non_negative,
                "Of the random positions and sizes of the particles.");
   file.path("file", k.sample,
@@ -290,6 +292,26 @@ const char* finest_key(const SpecimenKeys& k)
   return k.sizes == Sizes::table ? "size table" : "smallest diameter";
 }
 
+/// Particles without bonds hold together under a pressure only.
+void complete_granular(const CaseFile& file, SpecimenKeys& k)
+{
+  k.specimen.g_b = 0.0; // the recipe does not depend on it
+  if (k.shape == Shape::half_cylinder)
+    file.refuse(
+        "Specimen", "coordination",
+        "a half cylinder, as of a pile, needs bonds: nothing else holds its particles "
+        "but their weight, some pascals. Particles without bonds are for `periodic "
+        "box` and `cylinder`");
+  if (k.specimen.compaction == dem::Compaction::unjammed)
+    file.refuse("Specimen", "coordination",
+                "without bonds the particles hold together only under a pressure: set "
+                "`packing = confined` and a `target pressure`, or `packing = expanded`");
+  if (k.strengths.is_on())
+    file.refuse("Strength variability", "distribution",
+                "there are no bonds whose strengths could vary, `Specimen/coordination` is "
+                "0: use `none`");
+}
+
 } // namespace
 
 void declare(CaseFile& file, SpecimenKeys& k)
@@ -327,6 +349,7 @@ void complete(CaseFile& file, SpecimenKeys& k, const dem::ContactLaw& contact)
     file.refuse(
         "Specimen", "packing",
         "a half cylinder comes to rest inside the walls of its run: use `unjammed`");
+  if (k.is_granular()) complete_granular(file, k);
   s.region = region_of(k);
 
   const double largest = s.sizes.largest() * std::max(s.scale.S_inner, s.scale.S_outer);

@@ -39,6 +39,9 @@ struct SpecimenKeys {
   Symmetry symmetry = Symmetry::mirror;
   std::filesystem::path sample;       ///< empty: make the specimen
   dem::StrengthVariability strengths; ///< drawn by each run; not part of the recipe
+
+  /// Without bonds: particles in contact alone.
+  bool is_granular() const { return specimen.coordination == 0.0; }
 };
 
 /// Declare the keys. The defaults of the choices are the values in `k`.

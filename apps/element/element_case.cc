@@ -45,7 +45,8 @@ void declare_loading(CaseFile& file, ElementCase& c)
       "reference pressure", c.reference_pressure, "Pa", positive,
       "Bond/tensile strength/40",
       "Used in I in place of p where |p| is smaller; by default half of what a rock "
-      "bears in tension, some 1/20 of the strength of its bonds.",
+      "bears in tension, some 1/20 of the strength of its bonds; without bonds the target "
+      "pressure of the packing.",
       "MPa");
   file.number("strain limit", c.strain_limit, inside(0.0, 0.9),
               "The test ends where a strain since its start exceeds this limit.");
@@ -147,6 +148,22 @@ double tensile_strength(const dem::BondLaw& bond)
       bond);
 }
 
+/// What a specimen without bonds needs instead of their strength.
+void complete_granular(CaseFile& file, ElementCase& c)
+{
+  check_granular_stages(file, c.stage_texts);
+  if (c.size_effect.is_on)
+    file.refuse("Size effect", "size effect",
+                "there are no bonds whose strengths could vary, `Specimen/coordination` is "
+                "0: use `false`");
+  if (c.specimen.specimen.compaction == dem::Compaction::confined)
+    file.derive("Loading", "reference pressure", c.specimen.specimen.pressure);
+  else if (!file.is_given("Loading", "reference pressure"))
+    file.refuse("Loading", "reference pressure",
+                "must be given for an `expanded` packing without bonds, whose pressure "
+                "nobody knows yet: a pressure that it will have, such as 100 kPa");
+}
+
 } // namespace
 
 void complete(CaseFile& file, ElementCase& c)
@@ -160,8 +177,11 @@ void complete(CaseFile& file, ElementCase& c)
   check(file, c.analysis);
 
   complete(file, c.checkpoints);
-  file.derive("Loading", "reference pressure", tensile_strength(c.bond.chosen()) / 40.0);
   c.stages = stages_of(file, c.stage_texts);
+  if (c.specimen.is_granular())
+    complete_granular(file, c);
+  else
+    file.derive("Loading", "reference pressure", tensile_strength(c.bond.chosen()) / 40.0);
   std::istringstream folders(c.critical_text);
   for (std::string folder; folders >> folder;)
     c.critical_states.push_back(last_state(file, folder));
@@ -208,6 +228,10 @@ std::string report(const ElementCase& c, const dem::PeriodicSpecimen& specimen,
   };
   out << "resolved: S " << range.S_min;
   if (range.S_max > range.S_min) out << " to " << range.S_max;
+  if (c.specimen.is_granular()) {
+    scaled("g_a", dem::activation_gap(materials.contact));
+    return out.str() + " (Eq. 8); granular, without bonds: section Bond has no effect";
+  }
   if (const auto* b = std::get_if<dem::DamageBond>(&materials.bond)) {
     scaled("u_c", b->u_c);
     scaled("g_a", dem::activation_gap(materials.contact));

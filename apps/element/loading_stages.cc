@@ -231,6 +231,36 @@ std::vector<LoadingStage> stages_of(const CaseFile& file,
   return stages;
 }
 
+namespace {
+
+/// Whether an axis is without pressure along the stage, or at its target.
+bool is_without_pressure(const LoadingStage& s)
+{
+  const auto is_pulled = [](const dem::AxisRule& r) {
+    return r.kind == dem::AxisRule::Kind::stress_controlled && r.stress <= 0.0;
+  };
+  const bool is_stress = !dem::is_strain(s.quantity) && s.quantity != Quantity::q;
+  return s.kind == PathKind::compression || s.kind == PathKind::tension ||
+         (s.has_lateral && s.lateral <= 0.0) ||
+         (s.kind == PathKind::axes &&
+          std::any_of(s.axes.begin(), s.axes.end(), is_pulled)) ||
+         (is_stress && s.target <= 0.0);
+}
+
+} // namespace
+
+void check_granular_stages(const CaseFile& file, const std::vector<std::string>& texts)
+{
+  for (std::size_t k = 0; k < max_stages && !texts[k].empty(); ++k)
+    for (const LoadingStage& stage : read_stages(texts[k]))
+      if (is_without_pressure(stage))
+        file.refuse(
+            "Loading", key_of_stage(k),
+            "an axis would be without pressure, and particles without bonds, "
+            "`Specimen/coordination` = 0, fall apart: confine them, as in `triaxial "
+            "at 0.1 MPa`");
+}
+
 std::string name_of(const LoadingStage& stage)
 {
   std::string text = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) {

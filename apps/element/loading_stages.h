@@ -32,6 +32,11 @@ void declare_stages(CaseFile& file, std::vector<std::string>& texts);
 std::vector<dem::LoadingStage> stages_of(const CaseFile& file,
                                          const std::vector<std::string>& texts);
 
+/// Refuse a stage that particles without bonds cannot follow: where an axis bears no pressure
+/// they fall apart. @pre stages_of() has read these texts
+/// @throws InputError naming file, line and key
+void check_granular_stages(const CaseFile& file, const std::vector<std::string>& texts);
+
 /// "isotropic to p = 1 MPa"; for logs.
 std::string name_of(const dem::LoadingStage& stage);
 

@@ -78,14 +78,18 @@ std::string report(const SpecimenKeys& k, const dem::Sample& sample)
       << " kPa";
   if (s.compaction == dem::Compaction::confined)
     out << " (wanted " << 1e-3 * s.pressure << "), friction while packed " << p.friction;
-  out << "; " << sample.bonding.pairs.size() << " bonds, Z = 2 N_bonds/N = " << Z
-      << " (wanted " << s.coordination << "), N_bonds/N = " << 0.5 * Z << ", bonded up to "
-      << sample.bonding.limit / s.sizes.smallest() << " d00 S; largest overlap "
-      << p.overlap << "\ngrain sizes at S = 1 by mass, made (wanted): d10 "
-      << 1e3 * sizes.d_10 << " (" << 1e3 * s.sizes.sieve(0.1) << ") mm, d50 "
-      << 1e3 * sizes.d_50 << " (" << 1e3 * s.sizes.sieve(0.5) << ") mm, d90 "
-      << 1e3 * sizes.d_90 << " (" << 1e3 * s.sizes.sieve(0.9)
-      << ") mm; the curves differ by " << sizes.distance_by_mass << " at most";
+  if (k.is_granular())
+    out << "; granular, without bonds: section Bond has no effect";
+  else
+    out << "; " << sample.bonding.pairs.size() << " bonds, Z = 2 N_bonds/N = " << Z
+        << " (wanted " << s.coordination << "), N_bonds/N = " << 0.5 * Z
+        << ", bonded up to " << sample.bonding.limit / s.sizes.smallest() << " d00 S";
+  out << "; largest overlap " << p.overlap
+      << "\ngrain sizes at S = 1 by mass, made (wanted): d10 " << 1e3 * sizes.d_10 << " ("
+      << 1e3 * s.sizes.sieve(0.1) << ") mm, d50 " << 1e3 * sizes.d_50 << " ("
+      << 1e3 * s.sizes.sieve(0.5) << ") mm, d90 " << 1e3 * sizes.d_90 << " ("
+      << 1e3 * s.sizes.sieve(0.9) << ") mm; the curves differ by " << sizes.distance_by_mass
+      << " at most";
   if (p.cell.is_periodic())
     out << "\nperiodic box as made: " << 1e3 * p.cell.size.x() << " x "
         << 1e3 * p.cell.size.y() << " x " << 1e3 * p.cell.size.z() << " mm";

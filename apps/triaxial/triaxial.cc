@@ -146,6 +146,16 @@ void TriaxialJob::report_step() const
                       system_->assembly.particles);
 }
 
+/// Under which pressure the test begins.
+std::string words_of_seat(const coupling::TriaxialTest& test, std::size_t n_steps)
+{
+  std::ostringstream out;
+  out.precision(3);
+  out << "at rest under " << 1e-3 * test.state().pressure << " kPa after " << n_steps
+      << " steps; strains count from here";
+  return out.str();
+}
+
 void TriaxialJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
 {
   const dem::Sample sample = obtain_sample(file, case_.specimen);
@@ -157,6 +167,11 @@ void TriaxialJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
   system_->find_time_step();
   system_->dt_before = system_->dt;
   test_.emplace(case_, geometry_, *system_);
+  if (case_.specimen.is_granular()) {
+    Progress progress("seating in the membrane");
+    test_->seat(case_.specimen.specimen.pressure);
+    progress.done(words_of_seat(*test_, system_->n_steps));
+  }
   report_step();
   std::cout << describe(case_, *test_) << '\n';
   folder.prepare();
@@ -209,7 +224,7 @@ bool TriaxialJob::frame_is_due(bool stage_ends) const
   if (case_.pictures == Pictures::none) return false;
   if (stage_ends) return true;
   return case_.pictures == Pictures::strain &&
-         std::abs(1.0 - test_->state().height / geometry_.height) >= next_frame_;
+         std::abs(1.0 - test_->state().height / test_->geometry().height) >= next_frame_;
 }
 
 std::string words(const TriaxialPoint& r)
@@ -239,8 +254,8 @@ dem::Outcome TriaxialJob::load_stage(const std::string& name, bool is_under_way,
     if (ends || test_->record_is_due() || begins) progress.say(record());
     if (frame_is_due(ends)) {
       frame();
-      next_frame_ =
-          std::abs(1.0 - test_->state().height / geometry_.height) + case_.picture_every;
+      next_frame_ = std::abs(1.0 - test_->state().height / test_->geometry().height) +
+                    case_.picture_every;
     }
     if (ends) {
       progress.done(words(points_.back()));

@@ -87,20 +87,22 @@ void declare_loading(CaseFile& file, TriaxialCase& c)
 {
   const auto section = file.section("Loading");
   declare_stages(file, c.stage_texts);
-  file.quantity(
-      "wave stress", c.wave_stress, "Pa", positive,
+  file.derived(
+      "wave stress", c.wave_stress, "Pa", positive, "40 kPa",
       "Largest stress rho c v of the wave that a platen of the velocity v sends into the "
       "specimen; it limits v. A hundredth of the unconfined strength keeps the platen "
-      "forces at both ends within 2 %.",
+      "forces at both ends within 2 %; by default, without bonds, a tenth of the largest "
+      "cell pressure, at most 20 kPa.",
       "kPa");
   file.number(
       "inertial number", c.inertial_number, inside(0.0, 0.1),
       "I = rate d sqrt(rho/p) of the controlled strain, a second limit of the rate; "
       "quasi-static below 1e-3.");
-  file.quantity(
-      "reference pressure", c.reference_pressure, "Pa", positive,
+  file.derived(
+      "reference pressure", c.reference_pressure, "Pa", positive, "1 MPa",
       "Used in I in place of p where |p| is smaller; a stress off what a stage holds "
-      "by more than a hundredth of it starts an approach.",
+      "by more than a hundredth of it starts an approach. By default, without bonds, the "
+      "target pressure of the packing.",
       "MPa");
   file.number("strain limit", c.strain_limit, inside(0.0, 0.9),
               "The test ends where a strain since its start exceeds this limit.");
@@ -121,7 +123,7 @@ void declare_motion(CaseFile& file, TriaxialCase& c)
 void check_stages(const CaseFile& file, const TriaxialCase& c)
 {
   using dem::PathKind;
-  bool is_confined = false;
+  bool is_confined = c.specimen.is_granular(); // under its target pressure
   for (std::size_t k = 0; k < max_stages; ++k) {
     if (c.stage_texts[k].empty()) break;
     for (const dem::LoadingStage& stage : read_stages(c.stage_texts[k])) {
@@ -189,9 +191,9 @@ void declare(CaseFile& file, TriaxialCase& c)
               "Axial strain between two pictures.");
 }
 
-double largest_pressure(const std::vector<dem::LoadingStage>& stages)
+double TriaxialCase::largest_pressure() const
 {
-  double p = 0.0;
+  double p = specimen.is_granular() ? specimen.specimen.pressure : 0.0;
   for (const dem::LoadingStage& stage : stages) {
     if (stage.has_lateral) p = std::max(p, stage.lateral);
     if (stage.kind == dem::PathKind::isotropic && stage.quantity == dem::Quantity::p)
@@ -206,7 +208,7 @@ void complete_membrane(CaseFile& file, TriaxialCase& c)
 {
   MembraneKeys& m = c.membrane;
   const auto mm = [](double x) { return dem::shortest(1e3 * x) + " mm"; };
-  const double d_50 = c.d_50(), p = largest_pressure(c.stages);
+  const double d_50 = c.d_50(), p = c.largest_pressure();
   file.derive("Membrane", "Young's modulus",
               p > 0.0 ? p * d_50 / m.material.thickness : latex_modulus);
   file.derive("Membrane", "node distance", 0.5 * d_50);
@@ -237,6 +239,24 @@ void complete_membrane(CaseFile& file, TriaxialCase& c)
                     mm(0.5 * d_50));
 }
 
+/// Particles without bonds stand in the membrane only, under a pressure that is known before
+/// they are packed.
+void check_granular(const CaseFile& file, const TriaxialCase& c)
+{
+  if (!c.membrane.is_there)
+    file.refuse(
+        "Membrane", "membrane",
+        "particles without bonds, `Specimen/coordination` = 0, fall apart unconfined: "
+        "they need the membrane and a cell pressure");
+  if (c.specimen.specimen.compaction != dem::Compaction::confined)
+    file.refuse(
+        "Specimen", "packing",
+        "particles without bonds, `Specimen/coordination` = 0, begin the test under "
+        "the cell pressure that they are packed under: set `confined` and a `target "
+        "pressure`");
+  check_granular_stages(file, c.stage_texts);
+}
+
 } // namespace
 
 void complete(CaseFile& file, TriaxialCase& c)
@@ -252,7 +272,12 @@ void complete(CaseFile& file, TriaxialCase& c)
   check(file, c.analysis);
   complete(file, c.checkpoints);
   c.stages = stages_of(file, c.stage_texts);
+  if (c.specimen.is_granular()) check_granular(file, c);
   check_stages(file, c);
+  const dem::SpecimenSpec& s = c.specimen.specimen;
+  file.derive("Loading", "wave stress",
+              c.specimen.is_granular() ? std::min(2e4, 0.1 * c.largest_pressure()) : 4e4);
+  file.derive("Loading", "reference pressure", c.specimen.is_granular() ? s.pressure : 1e6);
   complete_membrane(file, c);
   PlatenKeys& p = c.platens;
   file.derive("Platens", "mass",

@@ -50,6 +50,9 @@ struct TriaxialCase : coupling::TriaxialControl {
   CheckpointKey checkpoints;
 
   double d_50() const { return specimen.specimen.sizes.sieve(0.5) * specimen.S; } ///< [m]
+  /// The largest cell pressure that the stages name, or under which particles without bonds
+  /// begin [Pa]; 0 without any.
+  double largest_pressure() const;
 };
 
 void declare(CaseFile& file, TriaxialCase& c);
@@ -57,9 +60,6 @@ void declare(CaseFile& file, TriaxialCase& c);
 /// Set what follows from the keys, and check conditions on several of them.
 /// @throws InputError naming file, line and key
 void complete(CaseFile& file, TriaxialCase& c);
-
-/// The largest cell pressure that the stages name [Pa]; 0 without any.
-double largest_pressure(const std::vector<dem::LoadingStage>& stages);
 
 /// The specimen before the test. @param porosity of its core
 coupling::SpecimenGeometry geometry_of(const TriaxialCase& c, double porosity);

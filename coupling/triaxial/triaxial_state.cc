@@ -33,6 +33,8 @@ dem::NumbersOf<State> numbers_of(State& s)
       {"density of the particles [kg/m3]", &s.particle_density},
       {"mean diameter of the particles [m]", &s.mean_diameter},
       {"enclosed volume before the test [m3]", &s.volume_0},
+      {"travel of the lower platen before the test [m]", &s.bottom_travel_0},
+      {"travel of the upper platen before the test [m]", &s.top_travel_0},
       {"start: kinetic energy of the structures [J]", &e.kinetic},
       {"start: strain energy of the structures [J]", &e.strain},
       {"start: work of the particles [J]", &e.wall_work},
@@ -42,6 +44,15 @@ dem::NumbersOf<State> numbers_of(State& s)
   dem::append_energies(all, "start: ", s.start.assembly);
   dem::append_alarm(all, s.alarm);
   return all;
+}
+
+template <class Geometry>
+dem::NumbersOf<Geometry> numbers_of_geometry(Geometry& g)
+{
+  return {{"lower end [m]", &g.z_bottom},
+          {"height [m]", &g.height},
+          {"area [m2]", &g.area},
+          {"void ratio [-]", &g.void_ratio}};
 }
 
 template <class State>
@@ -60,12 +71,14 @@ dem::CountsOf<State> counts_of(State& s)
 void TriaxialTest::save(dem::State& state) const
 {
   dem::save_numbers(state, "triaxial_numbers", numbers_of(state_));
+  dem::save_numbers(state, "triaxial_geometry", numbers_of_geometry(geometry_));
   dem::save_counts(state, "triaxial_counts", counts_of(state_));
 }
 
 void TriaxialTest::load(const dem::State& state)
 {
   dem::load_numbers(state, "triaxial_numbers", numbers_of(state_));
+  dem::load_numbers(state, "triaxial_geometry", numbers_of_geometry(geometry_));
   dem::load_counts(state, "triaxial_counts", counts_of(state_));
   if (state_.stage >= control_.stages.size())
     dem::State::refuse("triaxial_counts", "names a stage that the case does not have");

@@ -42,28 +42,37 @@ TriaxialTest::TriaxialTest(const TriaxialControl& control, const SpecimenGeometr
     : control_(control), geometry_(geometry), system_(system)
 {
   find_structures();
-  dem::Assembly& a = system_.assembly;
-  a.partition.gather_motion(a.particles, a.comm);
-  system_.x_0.clear();
   double m = 0.0, V = 0.0, dV = 0.0;
-  for (const dem::ParticleState& b : a.particles.state) {
-    system_.x_0.push_back(b.x);
+  for (const dem::ParticleState& b : system_.assembly.particles.state) {
     const double v = dem::sphere_mass(b.R, 1.0);
     m += b.m;
     V += v;
     dV += 2.0 * b.R * v;
   }
-  middle_ = MiddleThird(system_.x_0, geometry_.z_bottom, geometry_.height);
-  const double volume = geometry_.area * geometry_.height;
-  state_.height = geometry_.height;
   state_.mean_diameter = dV / V;
   state_.particle_density = m / V;
-  state_.density = m / volume;
-  state_.stiffness = dem::affine_stiffness(a, volume).z();
+  state_.density = m / (geometry_.area * geometry_.height);
+  begin_here();
+}
+
+/// Strains, volumes and energies count from the present state.
+void TriaxialTest::begin_here()
+{
+  dem::Assembly& a = system_.assembly;
+  a.partition.gather_motion(a.particles, a.comm);
+  system_.x_0.clear();
+  for (const dem::ParticleState& b : a.particles.state) system_.x_0.push_back(b.x);
+  middle_ = MiddleThird(system_.x_0, geometry_.z_bottom, geometry_.height);
+  state_.middle = {};
+  state_.height = geometry_.height;
+  state_.stiffness = dem::affine_stiffness(a, geometry_.area * geometry_.height).z();
   require(state_.stiffness > 0.0,
           "Specimen: no particles touch and none are bonded: it has no stiffness");
+  state_.bottom_travel_0 = bottom_->motion().travel;
+  state_.top_travel_0 = top_->motion().travel;
   if (membrane_) state_.volume_0 = membrane_->motion().enclosed().V;
   state_.start = system_.energy_balances();
+  state_.last_work = state_.start.structures.applied_work;
 }
 
 TriaxialTest::TriaxialTest(const TriaxialControl& control, const SpecimenGeometry& geometry,
@@ -71,8 +80,8 @@ TriaxialTest::TriaxialTest(const TriaxialControl& control, const SpecimenGeometr
     : control_(control), geometry_(geometry), system_(system)
 {
   find_structures();
-  middle_ = MiddleThird(system_.x_0, geometry_.z_bottom, geometry_.height);
   load(state);
+  middle_ = MiddleThird(system_.x_0, geometry_.z_bottom, geometry_.height);
 }
 
 void TriaxialTest::find_structures()
@@ -86,6 +95,13 @@ void TriaxialTest::find_structures()
     membrane_ = dynamic_cast<MembraneStructure*>(structure(2));
   if (!bottom_ || !top_ || (system_.structures.size() > 2 && !membrane_))
     throw std::logic_error("a triaxial test has two platens and perhaps a membrane");
+}
+
+/// Height between the platens [m].
+double TriaxialTest::height() const
+{
+  return geometry_.height - (bottom_->motion().travel - state_.bottom_travel_0) -
+         (top_->motion().travel - state_.top_travel_0);
 }
 
 /// V/H with the volumetric strain of the middle third, as laboratories correct it.
@@ -232,7 +248,7 @@ void TriaxialTest::step()
 
   const double dt = system_.dt_before;
   s.time += dt;
-  s.height = geometry_.height - bottom_->motion().travel - top_->motion().travel;
+  s.height = height();
   s.since_record += rate * dt;
   ++s.n_in_stage;
   // Over four transits of a wave: what a load cell would show.
@@ -362,7 +378,7 @@ TriaxialRecord TriaxialTest::record()
   r.of_stage = soil(axial, lateral, of_stage.isZero() ? size_0() : of_stage);
   r.controlled_strain = s.active.controlled_strain(r.of_stage);
   r.q_raw = axial + r.membrane.axial - r.cell_pressure;
-  const double z = geometry_.z_bottom + bottom_->motion().travel;
+  const double z = geometry_.z_bottom + bottom_->motion().travel - s.bottom_travel_0;
   const dem::Mat3 sigma =
       dem::slab_stress(a, z + s.height / 3.0, z + 2.0 * s.height / 3.0, area());
   r.middle_axial = -sigma(2, 2);

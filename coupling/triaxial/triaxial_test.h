@@ -86,6 +86,7 @@ struct TriaxialState {
   double density = 0.0, particle_density = 0.0; ///< of the rock, of the particles [kg/m^3]
   double mean_diameter = 0.0;                   ///< by mass [m]
   double volume_0 = 0.0;                        ///< enclosed before the test [m^3]
+  double bottom_travel_0 = 0.0, top_travel_0 = 0.0; ///< of the platens before it [m]
   EnergyBalances start;
   dem::EnergyAlarm alarm;
 };
@@ -101,6 +102,14 @@ public:
   TriaxialTest(const TriaxialControl& control, const SpecimenGeometry& geometry,
                CoupledSystem& system, const dem::State& state);
 
+  /// Particles without bonds, packed under this pressure between rigid walls, come to rest in
+  /// the membrane under it: first the membrane against held particles, then all together.
+  /// The test begins there: all strains and volumes count from this state. To be called once,
+  /// before the first stage.
+  /// @param pressure in the cell and of the platens [Pa], > 0
+  /// @throws Unstable when they do not come to rest
+  void seat(double pressure);
+
   /// As in an element test (dem/element/element_test.h).
   void begin_stage(std::size_t stage);
   bool is_approaching() const { return state_.active.is_approaching; }
@@ -113,6 +122,8 @@ public:
   double progress() const { return state_.largest_progress; }
 
   const TriaxialState& state() const { return state_; }
+  /// Of the specimen where the test begins.
+  const SpecimenGeometry& geometry() const { return geometry_; }
   bool has_membrane() const { return membrane_ != nullptr; }
   const MembraneStructure& membrane() const { return *membrane_; }
   CoupledSystem& system() { return system_; }
@@ -122,7 +133,9 @@ public:
 
 private:
   void load(const dem::State& state);
+  void begin_here();
   void find_structures();
+  double height() const;
   double area() const; ///< of the cross-section now [m^2]
   dem::Vec3 size() const;
   dem::Vec3 size_0() const;

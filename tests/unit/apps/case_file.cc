@@ -225,3 +225,41 @@ TEST_CASE(
   CHECK_THROWS_WITH(again.file.read_text(earlier, "earlier", {"A/width=2 mm"}),
                     Contains("--set A/width = 2 mm: is a key of `effect` = true"));
 }
+
+TEST_CASE("A key that is not needed where a number is zero may be left out there only",
+          "[unit][apps]")
+{
+  const WorkingFolder folder;
+  CaseFile file;
+  double n = 1.0, x = std::nan(""), y = std::nan(""), z = std::nan("");
+  {
+    const auto section = file.section("A");
+    file.number("n", n, non_negative, "");
+    file.number("x", x, any, "");
+    file.number("y", y, any, "");
+    file.not_needed_at_zero("A", "n", {"y"});
+  }
+  {
+    const auto section = file.section("B");
+    file.number("z", z, any, "");
+    file.not_needed_at_zero("A", "n");
+  }
+  const auto read = [&](const std::string& a, const std::string& b) {
+    write("a.prm", "subsection A\n" + a + "end\nsubsection B\n" + b + "end\n");
+    file.read("a.prm");
+  };
+  read("set n = 0\nset x = 1\n", "");
+  CHECK_FALSE(file.is_given("B", "z"));
+  CHECK_THAT(file.resolved_text(), !Contains("set y") && !Contains("set z"));
+  const std::string text = file.resolved_text();
+  file.read_text(text, "again"); // a resolved case is read back
+  CHECK(file.resolved_text() == text);
+
+  read("set n = 0\nset x = 1\nset y = 2\n", "set z = 3\n"); // but it may be given
+  CHECK(y == 2.0);
+  CHECK(z == 3.0);
+  CHECK_THROWS_WITH(read("set n = 0\n", ""), Contains("A/x: must be given"));
+  CHECK_THROWS_WITH(read("set n = 2\nset x = 1\n", "set z = 3\n"),
+                    Contains("A/y: must be given"));
+  CHECK_THROWS_WITH(read("set x = 1\nset y = 1\n", ""), Contains("B/z: must be given"));
+}
