@@ -26,12 +26,13 @@ bool holds_run(const std::filesystem::path& folder);
 
 /// A folder for the results of one run.
 ///
-/// mergel's own files, which mark an earlier run, are history.csv, resolved.prm,
-/// summary.json, failed.json, sample.h5, the series particles, bonds, pile, far_field,
-/// platens and membrane (.pvd, and their numbered files in fields/), mergel-view's
-/// damage.png, load.png, displacement.png, loads.png, surface.png, element.png,
-/// triaxial.png, specimen.png, isotropic.png and curve.png, the checkpoints checkpoint_*.h5 and
-/// *.h5.aside, .aside-2 and so on; also their temporary files (dem/io/atomic_file.h).
+/// mergel's own files, which mark an earlier run, are history.csv, localisation.csv,
+/// resolved.prm, summary.json, failed.json, sample.h5, the series particles, bonds, pile,
+/// far_field, platens and membrane (.pvd, and their numbered files in fields/), mergel-view's
+/// damage.png, load.png, displacement.png, loads.png, surface.png, element.png, triaxial.png,
+/// specimen.png, localisation.png, isotropic.png and curve.png, the checkpoints
+/// checkpoint_*.h5 and *.h5.aside, .aside-2 and so on; also their temporary files
+/// (dem/io/atomic_file.h).
 /// fields/ itself is removed when it is empty. They are removed only from a folder that
 /// holds a run (holds_run()), or the lock of one that was killed.
 class OutputFolder {

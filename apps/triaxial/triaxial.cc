@@ -58,15 +58,23 @@ private:
                           const std::function<void()>& after_step);
   void report_step() const;
   std::string record(); ///< returns lines for the user; mostly none
-  void frame();
+  double axial_strain() const
+  {
+    return 1.0 - test_->state().height / test_->geometry().height;
+  }
   bool frame_is_due(bool stage_ends) const;
+  bool bands_are_due(bool stage_ends) const;
+  std::vector<dem::Vec3> positions();
+  void write_fields(bool frame, bool bands);
 
   TriaxialCase case_;
   coupling::SpecimenGeometry geometry_;
   std::optional<coupling::CoupledSystem> system_;
   std::optional<coupling::TriaxialTest> test_;
-  std::optional<TriaxialOutput> output_; ///< on the first rank
-  std::vector<TriaxialPoint> points_;    ///< of all records
+  std::optional<TriaxialOutput> output_;    ///< on the first rank
+  std::vector<TriaxialPoint> points_;       ///< of all records
+  std::vector<coupling::BandRecord> bands_; ///< numbers on the first rank
+  std::optional<coupling::EarlierPositions> earlier_;
   TriaxialExtremes extremes_;
   /// Of stages begun; of the one under way unstable.
   std::vector<dem::Outcome> outcomes_;
@@ -179,7 +187,8 @@ void TriaxialJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
     dem::write_sample(folder.path() / "sample.h5", sample);
     output_.emplace(folder.path(), case_);
   });
-  if (case_.pictures != TriaxialCase::Pictures::none) frame();
+  earlier_.emplace(case_.localisation_every, axial_strain(), system_->x_0);
+  if (case_.pictures != TriaxialCase::Pictures::none) write_fields(true, false);
   next_frame_ = case_.picture_every;
 }
 
@@ -188,6 +197,7 @@ void TriaxialJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
   dem::State& state = restart.checkpoint.state;
   on_first_rank([&] { std::cout << TriaxialOutput::check(restart.folder, case_, state); });
   points_ = load_points(state);
+  bands_ = coupling::load_band_records(state);
   outcomes_ = load_outcomes(state, case_.stages.size());
   dem::load_numbers(state, "triaxial_extremes", numbers_of(extremes_));
   geometry_ = geometry_of(case_, state.get_rows<double>("porosity", 1).front());
@@ -196,6 +206,7 @@ void TriaxialJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
   system_.emplace(coupled_spec(case_), structures(case_, comm), state,
                   std::vector<dem::RigidWall>{}, comm);
   test_.emplace(case_, geometry_, *system_, numbers);
+  earlier_.emplace(case_.localisation_every, numbers, system_->x_0.size());
   report_step();
   folder.prepare();
   on_first_rank([&] { output_.emplace(folder.path(), case_, restart.folder, state); });
@@ -212,10 +223,39 @@ std::string TriaxialJob::record()
   return alarm.is_raised() && !was_raised ? alarm_text(alarm) : "";
 }
 
-void TriaxialJob::frame()
+/// Of all particles, on every rank. Collective.
+std::vector<dem::Vec3> TriaxialJob::positions()
 {
-  const auto assembly = dem::gather_on_first_rank(system_->assembly);
-  on_first_rank([&] { output_->frame(test_->state().time, *assembly, *system_); });
+  dem::Assembly& a = system_->assembly;
+  a.partition.gather_motion(a.particles, a.comm);
+  std::vector<dem::Vec3> x;
+  for (const dem::ParticleState& b : a.particles.state) x.push_back(b.x);
+  return x;
+}
+
+/// Find the local strains, and with them what is wanted: a frame, a line of localisation.csv.
+void TriaxialJob::write_fields(bool frame, bool bands)
+{
+  const std::vector<dem::Vec3> x = positions();
+  const double strain = axial_strain();
+  const auto assembly = frame ? dem::gather_on_first_rank(system_->assembly) : std::nullopt;
+  coupling::BandRecord found;
+  on_first_rank([&] {
+    std::vector<double> R;
+    for (const dem::ParticleState& b : system_->assembly.particles.state) R.push_back(b.R);
+    const auto strains = coupling::local_strains(system_->x_0, earlier_->x(strain), x, R);
+    if (bands) {
+      found = coupling::find_bands(x, strains, case_.d_50());
+      found.time = test_->state().time;
+      found.stage = test_->state().stage;
+      found.axial_strain = strain;
+      found.increment = earlier_->increment(strain);
+      output_->record(found, case_.d_50());
+    }
+    if (frame) output_->frame(test_->state().time, *assembly, *system_, strains);
+  });
+  if (bands) bands_.push_back(found);
+  if (earlier_->is_due(strain)) earlier_->add(strain, x);
 }
 
 bool TriaxialJob::frame_is_due(bool stage_ends) const
@@ -223,8 +263,15 @@ bool TriaxialJob::frame_is_due(bool stage_ends) const
   using Pictures = TriaxialCase::Pictures;
   if (case_.pictures == Pictures::none) return false;
   if (stage_ends) return true;
-  return case_.pictures == Pictures::strain &&
-         std::abs(1.0 - test_->state().height / test_->geometry().height) >= next_frame_;
+  return case_.pictures == Pictures::strain && std::abs(axial_strain()) >= next_frame_;
+}
+
+bool TriaxialJob::bands_are_due(bool stage_ends) const
+{
+  const dem::ActiveStage& stage = test_->state().active;
+  if (stage.controlled == dem::ActiveStage::Controlled::all || stage.is_approaching)
+    return false;
+  return stage_ends || earlier_->is_due(axial_strain()) || frame_is_due(stage_ends);
 }
 
 std::string words(const TriaxialPoint& r)
@@ -242,7 +289,10 @@ dem::Outcome TriaxialJob::load_stage(const std::string& name, bool is_under_way,
                                      const std::function<void()>& after_step)
 {
   std::string alarm;
-  if (!is_under_way) alarm = record();
+  if (!is_under_way) {
+    alarm = record();
+    earlier_->begin_stage(axial_strain(), positions());
+  }
   Progress progress("stage " + std::to_string(test_->state().stage + 1) + ", " + name);
   progress.say(alarm);
   for (;;) {
@@ -252,11 +302,10 @@ dem::Outcome TriaxialJob::load_stage(const std::string& name, bool is_under_way,
     const bool ends = outcome != dem::Outcome::goes_on;
     const bool begins = approached && !test_->is_approaching();
     if (ends || test_->record_is_due() || begins) progress.say(record());
-    if (frame_is_due(ends)) {
-      frame();
-      next_frame_ = std::abs(1.0 - test_->state().height / test_->geometry().height) +
-                    case_.picture_every;
-    }
+    if (begins) earlier_->begin_stage(axial_strain(), positions());
+    const bool draws = frame_is_due(ends), looks = bands_are_due(ends);
+    if (draws || looks) write_fields(draws, looks);
+    if (draws) next_frame_ = std::abs(axial_strain()) + case_.picture_every;
     if (ends) {
       progress.done(words(points_.back()));
       return outcome;
@@ -288,6 +337,8 @@ void TriaxialJob::save(dem::State& state) const
   system_->save(state);
   test_->save(state);
   apps::save(state, points_);
+  coupling::save(state, bands_);
+  earlier_->save(state);
   dem::save_numbers(state, "triaxial_extremes", numbers_of(extremes_));
   const double e = geometry_.void_ratio;
   state.add_common<double>("porosity", {e / (1.0 + e)});
@@ -302,7 +353,8 @@ void TriaxialJob::summarise(Summary& summary, const Work& work) const
 {
   if (points_.empty()) return;
   on_first_rank([&] {
-    apps::summarise(summary, case_, *test_, *system_, outcomes_, points_, extremes_, work);
+    apps::summarise(summary, case_, *test_, *system_, outcomes_, points_, bands_, extremes_,
+                    work);
   });
 }
 

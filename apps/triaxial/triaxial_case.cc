@@ -178,6 +178,10 @@ void declare(CaseFile& file, TriaxialCase& c)
   const auto section = file.section("Output");
   file.number("record every", c.record_every, inside(0.0, 0.1),
               "Controlled strain between two lines of history.csv.");
+  file.number(
+      "localisation every", c.localisation_every, inside(0.0, 1.0),
+      "Axial strain between two lines of localisation.csv, over which its increments "
+      "are taken.");
   declare(file, c.checkpoints);
   using Pictures = TriaxialCase::Pictures;
   file.choice("pictures", c.pictures,

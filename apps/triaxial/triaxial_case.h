@@ -46,7 +46,8 @@ struct TriaxialCase : coupling::TriaxialControl {
   // Output
   enum class Pictures { none, stages, strain };
   Pictures pictures = Pictures::stages;
-  double picture_every = 1e-2; ///< strain [-]
+  double picture_every = 1e-2;      ///< strain [-]
+  double localisation_every = 1e-2; ///< strain [-]
   CheckpointKey checkpoints;
 
   double d_50() const { return specimen.specimen.sizes.sieve(0.5) * specimen.S; } ///< [m]

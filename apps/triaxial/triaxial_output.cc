@@ -1,7 +1,7 @@
 #include "apps/triaxial/triaxial_output.h"
 
 #include "apps/run/restart.h"
-#include "dem/assembly/local_strain.h"
+#include "apps/triaxial/band_output.h"
 #include "dem/io/assembly_fields.h"
 #include "dem/text.h"
 
@@ -67,9 +67,12 @@ std::vector<Frames::Kind> kinds_of(const TriaxialCase& c)
   return kinds;
 }
 
-dem::HistoryMark mark_in(const dem::State& state)
+constexpr const char *history_file = "history.csv", *bands_file = "localisation.csv";
+constexpr const char *history_mark = "output_history", *bands_mark = "output_localisation";
+
+dem::HistoryMark mark_in(const dem::State& state, const char* name)
 {
-  const auto& mark = state.get_rows<std::uint64_t>("output_history", 2);
+  const auto& mark = state.get_rows<std::uint64_t>(name, 2);
   return {mark[0], mark[1]};
 }
 
@@ -89,6 +92,17 @@ triangles_of(const std::vector<dem::Triangle>& triangles, std::size_t first = 0)
     all.push_back(to);
   }
   return all;
+}
+
+/// Of the total, and "shear strain of the increment [-]" and so on.
+std::vector<dem::Field> fields_of(const coupling::LocalStrains& strains)
+{
+  std::vector<dem::Field> fields = dem::strain_fields(strains.total);
+  for (dem::Field& field : dem::strain_fields(strains.increment)) {
+    field.name.insert(field.name.find(" ["), " of the increment");
+    fields.push_back(std::move(field));
+  }
+  return fields;
 }
 
 /// At the nodes, for the writer of surfaces has no cell data: mean of the triangles around.
@@ -118,29 +132,37 @@ std::vector<dem::Field> membrane_fields(const fem::MembraneMotion& motion)
 } // namespace
 
 TriaxialOutput::TriaxialOutput(const std::filesystem::path& folder, const TriaxialCase& c)
-    : history_(folder / "history.csv", columns), frames_(folder, kinds_of(c))
+    : history_(folder / history_file, columns),
+      bands_(folder / bands_file, band_headings()), frames_(folder, kinds_of(c))
 {
 }
 
 TriaxialOutput::TriaxialOutput(const std::filesystem::path& folder, const TriaxialCase& c,
                                const std::filesystem::path& earlier,
                                const dem::State& state)
-    : history_(folder / "history.csv", columns, earlier / "history.csv", mark_in(state)),
+    : history_(folder / history_file, columns, earlier / history_file,
+               mark_in(state, history_mark)),
+      bands_(folder / bands_file, band_headings(), earlier / bands_file,
+             mark_in(state, bands_mark)),
       frames_(folder, kinds_of(c), earlier, state)
 {
 }
 
 void TriaxialOutput::save(dem::State& state, const TriaxialOutput* output)
 {
-  const dem::HistoryMark mark = output ? output->history_.mark() : dem::HistoryMark{};
-  state.add_common<std::uint64_t>("output_history", {mark.bytes, mark.sum});
+  const auto add = [&](const char* name, const dem::HistoryMark& mark) {
+    state.add_common<std::uint64_t>(name, {mark.bytes, mark.sum});
+  };
+  add(history_mark, output ? output->history_.mark() : dem::HistoryMark{});
+  add(bands_mark, output ? output->bands_.mark() : dem::HistoryMark{});
   Frames::save(state, output ? &output->frames_ : nullptr);
 }
 
 std::string TriaxialOutput::check(const std::filesystem::path& folder,
                                   const TriaxialCase& c, const dem::State& state)
 {
-  return report_on_history(folder / "history.csv", mark_in(state)) +
+  return report_on_history(folder / history_file, mark_in(state, history_mark)) +
+         report_on_history(folder / bands_file, mark_in(state, bands_mark)) +
          Frames::check(folder, kinds_of(c), state);
 }
 
@@ -199,18 +221,17 @@ void TriaxialOutput::record(const coupling::TriaxialRecord& r)
                 r.stable_step});
 }
 
+void TriaxialOutput::record(const coupling::BandRecord& r, double d_50)
+{
+  bands_.add(band_line(r, d_50));
+}
+
 void TriaxialOutput::frame(double time, const dem::Assembly& assembly,
-                           const coupling::CoupledSystem& system)
+                           const coupling::CoupledSystem& system,
+                           const coupling::LocalStrains& strains)
 {
   require_in_place();
-  std::vector<dem::Vec3> x;
-  std::vector<double> R;
-  for (const dem::ParticleState& b : assembly.particles.state) {
-    x.push_back(b.x);
-    R.push_back(b.R);
-  }
-  dem::write_particles(frames_.file(0), assembly, system.x_0,
-                       dem::strain_fields(dem::local_deformations(system.x_0, x, R)));
+  dem::write_particles(frames_.file(0), assembly, system.x_0, fields_of(strains));
   dem::write_bonds(frames_.file(1), assembly);
   std::vector<dem::Vec3> nodes;
   std::vector<std::array<dem::Index, 3>> triangles;

@@ -1,8 +1,9 @@
-/// Results of `mergel triaxial`: history.csv and the frames for ParaView.
+/// Results of `mergel triaxial`: history.csv, localisation.csv and the frames for ParaView.
 #pragma once
 
 #include "apps/run/frames.h"
 #include "apps/triaxial/triaxial_case.h"
+#include "coupling/triaxial/specimen_bands.h"
 #include "dem/io/history.h"
 
 namespace mergel::apps {
@@ -11,27 +12,33 @@ class TriaxialOutput {
 public:
   TriaxialOutput(const std::filesystem::path& folder, const TriaxialCase& c);
   /// Continue the files that the folder `earlier`, which may be `folder`, held when save()
-  /// wrote `state`. @throws InputError when the history is another one
+  /// wrote `state`. @throws InputError when a table is another one
   TriaxialOutput(const std::filesystem::path& folder, const TriaxialCase& c,
                  const std::filesystem::path& earlier, const dem::State& state);
 
   /// @param output null on all ranks but the first
   static void save(dem::State& state, const TriaxialOutput* output);
   /// Lines on what `folder` lacks of the results before `state`; "" when it lacks nothing.
-  /// @throws InputError when its history is another one
+  /// @throws InputError when a table is another one
   static std::string check(const std::filesystem::path& folder, const TriaxialCase& c,
                            const dem::State& state);
 
   void record(const coupling::TriaxialRecord& r);
-  /// @throws NumericalError when another program has touched the history
-  void require_in_place() const { history_.require_in_place(); }
+  /// @param d_50 [m]
+  void record(const coupling::BandRecord& r, double d_50);
+  /// @throws NumericalError when another program has touched a table
+  void require_in_place() const
+  {
+    history_.require_in_place();
+    bands_.require_in_place();
+  }
   /// Particles, bonds, platens and membrane at this time [s].
   /// @param assembly gathered: all particles
   void frame(double time, const dem::Assembly& assembly,
-             const coupling::CoupledSystem& system);
+             const coupling::CoupledSystem& system, const coupling::LocalStrains& strains);
 
 private:
-  dem::History history_;
+  dem::History history_, bands_;
   Frames frames_;
 };
 

@@ -3,6 +3,7 @@
 #include "apps/coupled/time_by_parts.h"
 #include "apps/run/progress.h"
 #include "apps/run/step_report.h"
+#include "apps/triaxial/band_summary.h"
 #include "dem/io/state/named_rows.h"
 #include "dem/io/state/stage_numbers.h"
 #include "dem/text.h"
@@ -130,13 +131,15 @@ std::string describe(const TriaxialCase& c, const coupling::TriaxialTest& test)
 void summarise(Summary& summary, const TriaxialCase& c, const coupling::TriaxialTest& test,
                const coupling::CoupledSystem& system,
                const std::vector<dem::Outcome>& outcomes,
-               const std::vector<TriaxialPoint>& points, const TriaxialExtremes& extremes,
-               const Work& work)
+               const std::vector<TriaxialPoint>& points,
+               const std::vector<coupling::BandRecord>& bands,
+               const TriaxialExtremes& extremes, const Work& work)
 {
   const TriaxialPoint& last = points.back();
   std::vector<StagePoint> analysed;
   for (const TriaxialPoint& p : points) analysed.push_back(p.analysed);
   summarise(summary, analyse(c.stages, c.analysis, outcomes, analysed), c.analysis);
+  summarise_bands(summary, bands, points, c.d_50());
   summary.number("p at the end [Pa]", last.whole.p());
   summary.number("q at the end [Pa]", last.whole.q());
   summary.number("largest q [Pa]", extremes.q);

@@ -3,6 +3,7 @@
 
 #include "apps/run/protocol.h"
 #include "apps/triaxial/triaxial_case.h"
+#include "coupling/triaxial/specimen_bands.h"
 #include "dem/io/state/named_numbers.h"
 
 namespace mergel::apps {
@@ -40,7 +41,8 @@ std::string describe(const TriaxialCase& c, const coupling::TriaxialTest& test);
 void summarise(Summary& summary, const TriaxialCase& c, const coupling::TriaxialTest& test,
                const coupling::CoupledSystem& system,
                const std::vector<dem::Outcome>& outcomes,
-               const std::vector<TriaxialPoint>& points, const TriaxialExtremes& extremes,
-               const Work& work);
+               const std::vector<TriaxialPoint>& points,
+               const std::vector<coupling::BandRecord>& bands,
+               const TriaxialExtremes& extremes, const Work& work);
 
 } // namespace mergel::apps

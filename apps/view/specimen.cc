@@ -17,7 +17,6 @@ namespace {
 
 const Colour latex{0.35, 0.55, 0.80};
 constexpr double opacity_of_membrane = 0.2;
-constexpr double thickness_of_platens = 0.06; // over the height of the specimen
 
 vtkSmartPointer<vtkActor> membrane(vtkPolyData* surface)
 {
@@ -33,41 +32,6 @@ vtkSmartPointer<vtkActor> membrane(vtkPolyData* surface)
   look->SetColor(latex[0], latex[1], latex[2]);
   look->SetOpacity(opacity_of_membrane);
   return actor;
-}
-
-/// The line of a level or tilted face as seen along y.
-struct Line {
-  double x_0, z_0, x_1, z_1;
-  double at(double x) const // x_1 > x_0: a platen has a width
-  {
-    return z_0 + (z_1 - z_0) * (x - x_0) / (x_1 - x_0);
-  }
-};
-
-/// The face of the upper platen, or of the lower one.
-Line face(vtkPolyData* platens, bool is_upper)
-{
-  const Bounds b = bounds(platens);
-  const double middle = 0.5 * (b[4] + b[5]), infinity = std::numeric_limits<double>::max();
-  Line line{infinity, 0.0, -infinity, 0.0};
-  for (vtkIdType k = 0; k < platens->GetNumberOfPoints(); ++k) {
-    const double* x = platens->GetPoint(k);
-    if ((x[2] > middle) != is_upper) continue;
-    if (x[0] < line.x_0) line.x_0 = x[0], line.z_0 = x[2];
-    if (x[0] > line.x_1) line.x_1 = x[0], line.z_1 = x[2];
-  }
-  return line;
-}
-
-/// Draw a platen with a thickness, which the results do not have.
-void draw_platen(Page& page, const Panel& panel, const Line& line, double thickness)
-{
-  const double left = std::max(line.x_0, panel.x.from),
-               right = std::min(line.x_1, panel.x.to);
-  page.fill({panel.at(left, line.at(left)), panel.at(right, line.at(right)),
-             panel.at(right, line.at(right) + thickness),
-             panel.at(left, line.at(left) + thickness)},
-            steel);
 }
 
 /// "axial strain 2 %   q 3.1 MPa   time 4.36 ms   62 bonds broken", as in the history.
@@ -88,12 +52,37 @@ std::string caption(const dem::Table& history, double time)
 
 } // namespace
 
+PlatenFace platen_face(vtkPolyData* platens, bool is_upper)
+{
+  const Bounds b = bounds(platens);
+  const double middle = 0.5 * (b[4] + b[5]), infinity = std::numeric_limits<double>::max();
+  PlatenFace face{infinity, 0.0, -infinity, 0.0};
+  for (vtkIdType k = 0; k < platens->GetNumberOfPoints(); ++k) {
+    const double* x = platens->GetPoint(k);
+    if ((x[2] > middle) != is_upper) continue;
+    if (x[0] < face.x_0) face.x_0 = x[0], face.z_0 = x[2];
+    if (x[0] > face.x_1) face.x_1 = x[0], face.z_1 = x[2];
+  }
+  return face;
+}
+
+void draw_platen(Page& page, const Panel& panel, const PlatenFace& face, double thickness)
+{
+  const double left = std::max(face.x_0, panel.x.from),
+               right = std::min(face.x_1, panel.x.to);
+  page.fill({panel.at(left, face.at(left)), panel.at(right, face.at(right)),
+             panel.at(right, face.at(right) + thickness),
+             panel.at(left, face.at(left) + thickness)},
+            steel);
+}
+
 void draw_specimen(Page& page, const SpecimenFrame& frame, const dem::Table& history)
 {
   const AssemblyPicture picture = damage_picture();
   const auto table = lookup_table(picture);
   const double u = page.unit();
-  const Line upper = face(frame.platens, true), lower = face(frame.platens, false);
+  const PlatenFace upper = platen_face(frame.platens, true),
+                   lower = platen_face(frame.platens, false);
   const Bounds inside = bounds(frame.membrane ? frame.membrane : frame.particles);
   const double height = std::max(upper.z_0, upper.z_1) - std::min(lower.z_0, lower.z_1);
   const double thickness = thickness_of_platens * height;

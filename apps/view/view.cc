@@ -1,6 +1,7 @@
 /// mergel-view: pictures of runs. Of a pile run: damage.png, displacement.png and load.png;
 /// of bond runs: loads.png and surface.png; of element runs: element.png or isotropic.png;
-/// of triaxial runs: triaxial.png or isotropic.png, and of one specimen.png; of any: curve.png.
+/// of triaxial runs: triaxial.png or isotropic.png, and of one specimen.png and
+/// localisation.png; of any: curve.png.
 
 #include "apps/view/bond.h"
 #include "apps/view/bond_loads.h"
@@ -8,6 +9,7 @@
 #include "apps/view/chart.h"
 #include "apps/view/displacement.h"
 #include "apps/view/element.h"
+#include "apps/view/localisation.h"
 #include "apps/view/points.h"
 #include "apps/view/results.h"
 #include "apps/view/run_plot.h"
@@ -24,8 +26,10 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -196,10 +200,11 @@ std::vector<std::string> folder_labels(const std::vector<std::string>& folders)
 std::vector<RunName> run_names(const Options& options)
 {
   const auto& folders = options.folders;
-  require(!options.has_frame,
-          "--frame " + std::to_string(options.frame) +
-              ": is for damage.png and displacement.png of a pile run and for specimen.png "
-              "of one triaxial run; curves have no frames. Leave it out.");
+  require(
+      !options.has_frame,
+      "--frame " + std::to_string(options.frame) +
+          ": is for damage.png and displacement.png of a pile run and for specimen.png "
+          "and localisation.png of one triaxial run; curves have no frames. Leave it out.");
   require(options.labels.empty() || options.labels.size() == folders.size(),
           "--label: given " + std::to_string(options.labels.size()) + " times for " +
               std::to_string(folders.size()) +
@@ -275,6 +280,36 @@ void draw_stages(const Options& options, const Stages& stages,
     draw_panels(options, element_plots(runs, stages), runs, sheared);
 }
 
+/// Whether a table has a line below its headings.
+bool has_record(const fs::path& table)
+{
+  std::ifstream in(table);
+  int n = 0;
+  for (std::string line; std::getline(in, line);) n += line.starts_with('#') ? 0 : 1;
+  return n > 1;
+}
+
+/// localisation.png of one test, where the run has looked for bands at the time of the frame.
+void draw_bands(const Options& options, const SpecimenFrame& frame)
+{
+  const fs::path file = fs::path(options.folders.front()) / "localisation.csv";
+  if (!fs::exists(file)) {
+    std::cout << "no localisation.png: the folder holds no localisation.csv\n";
+    return;
+  }
+  dem::Table bands;
+  if (has_record(file)) bands = dem::read_table(file);
+  const auto row = bands.n_rows > 0 ? bands_at(frame.time, bands) : std::nullopt;
+  if (!row) {
+    std::cout << "no localisation.png: bands are looked for while the specimen is sheared, "
+                 "and not at the time of this frame\n";
+    return;
+  }
+  Page page(options.size.width, options.size.height);
+  draw_localisation(page, frame, bands, *row);
+  save(options, page, picture_folder(options) / "localisation.png");
+}
+
 /// The panels, and of one test the specimen at a time of its pictures.
 void draw_triaxial(const Options& options, const Stages& stages,
                    const std::vector<dem::Table>& histories)
@@ -292,6 +327,7 @@ void draw_triaxial(const Options& options, const Stages& stages,
     Page page(options.size.width, options.size.height);
     draw_specimen(page, frame, histories.front());
     save(options, page, picture_folder(options) / "specimen.png");
+    draw_bands(options, frame);
   } else if (is_one) {
     std::cout << "no specimen.png: the folder holds no particles.pvd\n";
   }
@@ -394,7 +430,8 @@ int main(int argc, char** argv)
       "over p) or, where |q| stays below 1 % of p, isotropic.png (p over volumetric "
       "strain, void ratio over log p). Triaxial runs: the same as triaxial.png, with the "
       "volumetric strain of the middle third, and of one run "
-      "specimen.png (particles through the membrane, and cut open). Any runs, with "
+      "specimen.png (particles through the membrane, and cut open) and localisation.png "
+      "(shear strain across the slab in which it is localised). Any runs, with "
       "--curve: curve.png.",
       "mergel-view");
   app.add_option(

@@ -23,7 +23,7 @@ ended() { grep -c "^stage [0-9]*, .*: $2" "$1.log" || true; } # RUN OUTCOME: num
 # RUN PICTURES KINDS: the files of a run are there and whole, and what holds at every record
 sound() {
   local file kind n
-  for file in history.csv summary.json resolved.prm sample.h5; do [ -s "$1/$file" ] || fail "$1/$file is missing"; done
+  for file in history.csv localisation.csv summary.json resolved.prm sample.h5; do [ -s "$1/$file" ] || fail "$1/$file is missing"; done
   for kind in $3; do
     [ "$(compgen -G "$1/fields/${kind}_*.vtp" | wc -l)" -eq "$2" ] && [ "$(grep -c '<DataSet' "$1/$kind.pvd")" -eq "$2" ] ||
       fail "$1: $2 pictures of $kind: $(ls "$1/fields")"
@@ -78,6 +78,14 @@ records a "$slope"'
   END { print "slope " slope(2) ", unloading " slope(3) " Pa; q " top ", reloaded " back " Pa"
     exit !(slope(2) > 0.9e9 && slope(2) < 1.4e9 && slope(3) > 0.95 * slope(2) && slope(3) < 1.4e9 && abs(back / top - 1) < 0.03) }' ||
   fail "the stiffness"
+
+# Bands are looked for at the end of each stage but the isotropic one: a line for each, and a share of the tenth that is one.
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  { stages = stages $at["stage [-]"]; s = $at["shear strain: share of the tenth [-]"]; e = $at["shear strain: even share [-]"]
+    a = $at["shear strain: angle [degree]"]; if (!(s > e && s <= 1 && e > 0 && a >= 0 && a <= 90)) bad = 1 }
+  END { print "bands: stages " stages; exit bad || stages != "2345" }' a/localisation.csv || fail "bands: $(cat a/localisation.csv)"
+[ "$(grep -c 'shear strain: slab at .* degrees' a.log)" -eq 4 ] && grep -q '"localisation": \[' a/summary.json || fail "no bands in the summary"
+grep -aq 'Name="shear strain of the increment \[-\]"' a/fields/particles_0005.vtp || fail "no increment in the picture of the particles"
 
 # Unconfined: no membrane, and nothing of one in the results.
 run "compression to axial strain = 1 %" "" "" "" u --set "Membrane/membrane=false" || fail "unconfined: $(tail -5 u.log)"

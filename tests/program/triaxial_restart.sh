@@ -17,12 +17,14 @@ tiny=(--set "Specimen/diameter=3.6 mm" --set "Specimen/height=5 mm" --set "Plate
   --set "Bond/softening displacement=0.0004 mm" --set "Bond/softening rotation=0.004 rad"
   --set "Strength variability/distribution=Weibull" --set "Strength variability/coefficient of variation=0.3"
   --set "Membrane/density=20000 kg/m3" --set "Membrane/largest subcycle=4" --set "Output/record every=5e-5"
+  --set "Output/localisation every=1e-4"
   --set "Loading/stage 1=isotropic to p = 0.2 MPa" --set "Loading/stage 2=triaxial at 0.4 MPa to axial strain = 0.05 %"
   --set "Loading/stage 3=unload-reload to q = 0.2 MPa" --set "Loading/stage 4=resume to axial strain = 0.06 %")
 
 triaxial "$case_file" "${tiny[@]}" --output whole >log || fail "the whole run: $(tail -3 log)"
 n=$(lines whole)
 [ "$(value whole "bonds broken [-]")" -gt 5 ] || fail "5 bonds or fewer broke"
+[ "$(wc -l <whole/localisation.csv)" -gt 6 ] || fail "bands are not looked for: $(cat whole/localisation.csv)"
 [ "$(value whole "steps from kick to kick")" -gt 1 ] || fail "the membrane's own forces act at every step"
 # Lines written in the approach of stage 2, and in the middle of its shearing.
 read -r approach shearing < <(records whole 'c("stage [-]") == 2 { ++m
@@ -47,6 +49,7 @@ stopped() {
 # FOLDER: equal to the whole run
 same() {
   cmp whole/history.csv "$1/history.csv" || fail "the history of $1 differs"
+  cmp whole/localisation.csv "$1/localisation.csv" || fail "the bands of $1 differ"
   diff <(physics whole) <(physics "$1") || fail "the summary of $1 differs"
   diff -r whole/fields "$1/fields" >log || fail "the pictures of $1 differ: $(cat log)"
   for series in particles bonds platens membrane; do
