@@ -85,15 +85,16 @@ void read_off(std::vector<Finding>& found, const AnalysisKeys& keys,
       found.push_back({"strain at yield", "-", y->strain});
     }
   }
-  const dem::CurvePoint top = dem::peak(curve);
-  found.push_back({names.peak, "Pa", top.stress});
-  found.push_back({"strain there", "-", top.strain});
-  if (const auto first = dem::first_collapse(curve, 0.02);
-      first && first->stress < top.stress)
-    found.push_back({"first peak before a collapse", "Pa", first->stress});
-  const dem::CurvePoint low = dem::minimum_after_peak(curve);
-  if (low.stress < 0.98 * top.stress)
-    found.push_back({"minimum after the peak", "Pa", low.stress});
+  const dem::Drop largest = dem::largest_drop(curve);
+  found.push_back({names.peak, "Pa", largest.peak.stress});
+  found.push_back({"strain there", "-", largest.peak.strain});
+  if (largest.minimum.stress < 0.98 * largest.peak.stress)
+    found.push_back(
+        {std::string("minimum after the ") + names.peak, "Pa", largest.minimum.stress});
+  const auto first = dem::first_drop(curve, 0.02);
+  if (!first || !(first->peak.stress < largest.peak.stress)) return;
+  found.push_back({"first peak before a collapse", "Pa", first->peak.stress});
+  found.push_back({"minimum after the first peak", "Pa", first->minimum.stress});
 }
 
 using State = const dem::SoilState&;

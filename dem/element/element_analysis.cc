@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mergel::dem {
 
 namespace {
-
-constexpr double atmosphere = 101325.0; ///< [Pa]
 
 /// Fraction between a and b at which the linear function from a to b is zero; a and b have
 /// different signs, or a is 0.
@@ -61,21 +60,33 @@ CurvePoint peak(const Curve& c)
   return {c.strain[static_cast<std::size_t>(at - c.stress.begin())], *at};
 }
 
-CurvePoint minimum_after_peak(const Curve& c)
+namespace {
+
+/// The drop whose peak is point `top`.
+Drop drop_from(const Curve& c, std::size_t top)
 {
-  const auto at =
-      std::min_element(std::max_element(c.stress.begin(), c.stress.end()), c.stress.end());
-  return {c.strain[static_cast<std::size_t>(at - c.stress.begin())], *at};
+  std::size_t low = top;
+  for (std::size_t k = top + 1; k < c.stress.size() && c.stress[k] < c.stress[top]; ++k)
+    if (c.stress[k] < c.stress[low]) low = k;
+  return {{c.strain[top], c.stress[top]}, {c.strain[low], c.stress[low]}};
 }
 
-std::optional<CurvePoint> first_collapse(const Curve& c, double share)
+} // namespace
+
+Drop largest_drop(const Curve& c)
+{
+  const auto top = std::max_element(c.stress.begin(), c.stress.end());
+  return drop_from(c, static_cast<std::size_t>(top - c.stress.begin()));
+}
+
+std::optional<Drop> first_drop(const Curve& c, double share)
 {
   std::size_t top = 0;
   for (std::size_t k = 1; k < c.stress.size(); ++k) {
     if (c.stress[k] >= c.stress[top])
       top = k;
     else if (c.stress[k] < (1.0 - share) * c.stress[top])
-      return CurvePoint{c.strain[top], c.stress[top]};
+      return drop_from(c, top);
   }
   return {};
 }
@@ -103,14 +114,22 @@ std::optional<StraightLine> fit_line(const std::vector<double>& x,
   }
   if (!(xx > 0.0)) return {};
   const double slope = xy / xx;
-  return StraightLine{y_mean - slope * x_mean, slope, yy > 0.0 ? xy * xy / (xx * yy) : 1.0};
+  const double residual = std::max(0.0, yy - slope * xy); // sum of squares about the line
+  const double NaN = std::numeric_limits<double>::quiet_NaN();
+  const double variance = n > 2.0 ? residual / (n - 2.0) : NaN;
+  return StraightLine{y_mean - slope * x_mean,
+                      slope,
+                      yy > 0.0 ? xy * xy / (xx * yy) : 1.0,
+                      variance * (1.0 / n + x_mean * x_mean / xx),
+                      variance / xx,
+                      -variance * x_mean / xx};
 }
 
 std::optional<StraightLine> critical_state_line(const std::vector<CriticalState>& states)
 {
   std::vector<double> x, e;
   for (const CriticalState& s : states) {
-    x.push_back(std::pow(std::max(0.0, s.p) / atmosphere, 0.7));
+    x.push_back(std::pow(std::max(0.0, s.p) / atmosphere, critical_exponent));
     e.push_back(s.e);
   }
   return fit_line(x, e);

@@ -37,12 +37,19 @@ std::optional<CurvePoint> offset_yield(const Curve& c, double modulus, double of
 /// Largest stress, the first of equals. @pre the curve has a point
 CurvePoint peak(const Curve& c);
 
-/// Smallest stress after the peak; the peak itself if the curve ends there.
-CurvePoint minimum_after_peak(const Curve& c);
+/// A peak and the smallest stress between it and the next point that lies as high, or the
+/// end of the curve: both belong to one fall of the stress.
+struct Drop {
+  CurvePoint peak, minimum;
+};
 
-/// The first peak from which the stress falls by more than this share of the peak before it
-/// rises above it again: collapse of a bonded rock that hardens later.
-std::optional<CurvePoint> first_collapse(const Curve& c, double share);
+/// That of the largest stress; peak and minimum are one point if the curve ends there.
+/// @pre the curve has a point
+Drop largest_drop(const Curve& c);
+
+/// The first from whose peak the stress falls by more than this share of the peak: collapse
+/// of a bonded rock that may harden later, beyond the peak.
+std::optional<Drop> first_drop(const Curve& c, double share);
 
 /// Mobilised friction angle of Mohr and Coulomb without cohesion [rad]: sin phi = (sigma_1
 /// - sigma_3)/(sigma_1 + sigma_3), from the stresses along the axes, in any order. In
@@ -50,9 +57,13 @@ std::optional<CurvePoint> first_collapse(const Curve& c, double share);
 /// @pre none is a tension and one is positive
 double friction_angle(const Vec3& stress);
 
+/// A line of least squares, y = intercept + slope x.
 struct StraightLine {
   double intercept, slope;
   double R2; ///< share of the variance of y that the line explains [-]
+  /// Of the estimates, from the scatter of y about the line, n - 2 degrees of freedom;
+  /// NaN for two points, which have none.
+  double intercept_variance, slope_variance, covariance;
 };
 
 /// Least-squares line; none for fewer than two different x.
@@ -64,8 +75,11 @@ struct CriticalState {
   double p, q, e;
 };
 
+inline constexpr double atmosphere = 101325.0;   ///< p_a [Pa]
+inline constexpr double critical_exponent = 0.7; ///< of p/p_a
+
 /// e = Gamma - lambda (p/p_a)^0.7, Li and Wang (1998), J. Geotech. Geoenviron. Eng. 124,
-/// 1215, with p_a = 101325 Pa; slope is -lambda.
+/// 1215; slope is -lambda.
 std::optional<StraightLine> critical_state_line(const std::vector<CriticalState>& states);
 
 } // namespace mergel::dem

@@ -109,8 +109,8 @@ bands() {
     for s in "${seeds[@]}"; do
       row "$f" "$s" "$(value "bands/ucs_${f}_$s" "Young's modulus")" "$(value "bands/ucs_${f}_$s" "Poisson's ratio")" \
         "$(value "bands/ucs_${f}_$s" UCS)" "$(value "bands/tension_${f}_$s" "tensile strength")" \
-        "$(value "bands/iso_${f}_$s" "isotropic yield")" "$(value "bands/iso_${f}_$s" "first peak before a collapse")" "$(dip "bands/iso_${f}_$s")" \
-        "$(value "bands/tx1_${f}_$s" "largest q")" "$(value "bands/tx1_${f}_$s" "minimum after the peak")" "$(value "bands/tx1_${f}_$s" "q/p at the end")" \
+        "$(value "bands/iso_${f}_$s" "isotropic yield")" "$(value "bands/iso_${f}_$s" "first peak before a collapse")" "$(value "bands/iso_${f}_$s" "minimum after the first peak")" \
+        "$(value "bands/tx1_${f}_$s" "largest q")" "$(value "bands/tx1_${f}_$s" "minimum after the largest q")" "$(value "bands/tx1_${f}_$s" "q/p at the end")" \
         "$(value "bands/tx4_${f}_$s" "largest q")" "$(value "bands/tx4_${f}_$s" "q at the end")" "$(value "bands/tx4_${f}_$s" "q/p at the end")" \
         "$(over_unbonded "bands/iso_${f}_$s" "bands/unbonded_$s")"
     done
@@ -123,15 +123,6 @@ bands() {
       row $S "$s" "$(value "$name" "Young's modulus")" "$(value "$name" UCS)"
     done
   done
-}
-# Smallest p after a fall by 2 % from its first peak, before p reaches that peak again
-dip() {
-  awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
-    { p = $at["p [Pa]"] }
-    falls && p > top { exit }
-    p > top { top = p; next }
-    p < 0.98 * top { falls = 1; if (!low || p < low) low = p }
-    END { print low ? low : "nan" }' "$1/history.csv"
 }
 # p of the bonded rock near 25 MPa over p of the unbonded one at the same void ratio
 over_unbonded() {
@@ -150,7 +141,7 @@ fig14() {
   header fig14 flow "isotropic yield [Pa]" "largest q at 1 MPa [Pa]" "minimum [Pa]" "largest q at 4 MPa [Pa]"
   for f in "${flows[@]}"; do
     row "$f" "$(value "bands/iso_${f}_1" "isotropic yield")" "$(value "bands/tx1_${f}_1" "largest q")" \
-      "$(value "bands/tx1_${f}_1" "minimum after the peak")" "$(value "bands/tx4_${f}_1" "largest q")"
+      "$(value "bands/tx1_${f}_1" "minimum after the largest q")" "$(value "bands/tx4_${f}_1" "largest q")"
   done
 }
 
@@ -172,7 +163,7 @@ fig15() {
   for f in "${flows[@]}"; do
     for p in 0 0.25 0.5 1 1.5 2.5 4 6; do
       local name=fig15/${f}_$p
-      row "$f" $p "$(value "$name" "q at yield")" "$(value "$name" "largest q")" "$(value "$name" "minimum after the peak")" \
+      row "$f" $p "$(value "$name" "q at yield")" "$(value "$name" "largest q")" "$(value "$name" "minimum after the largest q")" \
         "$(value "$name" "q/p at the end")" "$(value "$name" "friction angle at the end")" "$(value "$name" "p at the end")" \
         "$(value "$name" "void ratio at the end")"
     done

@@ -52,7 +52,7 @@ element() {
       worst=$(awk -v a="$worst" -v b="$(value "$tag/${t}_$s" "largest energy error")" 'BEGIN { print (b > a ? b : a) }')
       steps=$(awk -v a="$steps" -v b="$(value "$tag/${t}_$s" steps)" 'BEGIN { print a + b }')
     done
-    echo "$tag,$s,$(value "$tag/ucs_$s" "Young's modulus"),$(value "$tag/ucs_$s" UCS),$(value "$tag/tension_$s" "tensile strength"),$(value "$tag/iso_$s" "isotropic yield"),$(value "$tag/tx1_$s" "largest q"),$(value "$tag/tx1_$s" "minimum after the peak"),$worst,$steps" >>time_step_element.csv
+    echo "$tag,$s,$(value "$tag/ucs_$s" "Young's modulus"),$(value "$tag/ucs_$s" UCS),$(value "$tag/tension_$s" "tensile strength"),$(value "$tag/iso_$s" "isotropic yield"),$(value "$tag/tx1_$s" "largest q"),$(value "$tag/tx1_$s" "minimum after the largest q"),$worst,$steps" >>time_step_element.csv
   done
 }
 

@@ -64,9 +64,37 @@ TEST_CASE("Modulus, Poisson's ratio and UCS come from the stage and those that r
   CHECK(found(r[0], "Young's modulus") == Approx(1e9));
   CHECK(found(r[0], "Poisson's ratio") == Approx(0.2));
   CHECK(found(r[0], "UCS") == 4e6); // of the last stage
-  CHECK(found(r[0], "minimum after the peak") == 1e6);
+  CHECK(found(r[0], "minimum after the UCS") == 1e6);
   CHECK(std::isnan(found(r[0], "first peak before a collapse"))); // not the loop
   CHECK(found(r[1], "secant modulus of the stage") == Approx(1e9));
+}
+
+TEST_CASE("A peak and the minimum after it are told of one fall of q", "[unit][apps]")
+{
+  // Collapse from 3.987 to 2.49 MPa, hardening to 4.59, a fall to 3.986.
+  RecordedTest t;
+  t.stage("triaxial to axial strain = 20 %");
+  t.axial(0,
+          {{0.0, 1.5e6},
+           {4e-3, 5.487e6},
+           {1e-2, 3.99e6},
+           {0.1, 5.4e6},
+           {0.18, 6.09e6},
+           {0.19, 5.486e6},
+           {0.2, 6.0e6}},
+          1.5e6);
+  const StageResult r = t.results()[0];
+  CHECK(found(r, "largest q") == Approx(4.59e6));
+  CHECK(found(r, "minimum after the largest q") == Approx(3.986e6));
+  CHECK(found(r, "first peak before a collapse") == Approx(3.987e6));
+  CHECK(found(r, "minimum after the first peak") == Approx(2.49e6));
+
+  // One fall: its minimum is told once.
+  RecordedTest one;
+  one.stage("triaxial to axial strain = 2 %");
+  one.axial(0, {{0.0, 1e6}, {4e-3, 5e6}, {1e-2, 3e6}, {2e-2, 4e6}}, 1e6);
+  CHECK(found(one.results()[0], "minimum after the largest q") == Approx(2e6));
+  CHECK(std::isnan(found(one.results()[0], "minimum after the first peak")));
 }
 
 TEST_CASE("A tension stage has a tensile strength, an extension stage a largest -q",

@@ -50,15 +50,40 @@ TEST_CASE(
   CHECK_FALSE(offset_yield(bilinear(1e9, 1e9, 1e9, 0.0), 1e9, 2e-4, 1e-4)); // never yields
 }
 
-TEST_CASE("Peak, collapse and minimum are found in their order", "[unit][dem]")
+TEST_CASE("A peak and the minimum after it are of one fall of the stress", "[unit][dem]")
 {
   const Curve c{{0, 1, 2, 3, 4, 5, 6}, {0.0, 6.4, 6.35, 5.6, 5.8, 7.0, 9.0}};
   CHECK(peak(c).strain == 6.0);
-  CHECK(first_collapse(c, 0.02)->stress == 6.4);
-  CHECK_FALSE(first_collapse(c, 0.2)); // falls by 12.5 % only
+  REQUIRE(first_drop(c, 0.02));
+  CHECK(first_drop(c, 0.02)->peak.stress == 6.4);
+  CHECK(first_drop(c, 0.02)->minimum.stress == 5.6);
+  CHECK_FALSE(first_drop(c, 0.2));              // falls by 12.5 % only
+  CHECK(largest_drop(c).minimum.strain == 6.0); // the curve ends at its peak
   const Curve softens{{0, 1, 2, 3}, {0.0, 4.2, 2.1, 2.6}};
-  CHECK(minimum_after_peak(softens).stress == 2.1);
-  CHECK(minimum_after_peak(c).stress == 9.0);
+  CHECK(largest_drop(softens).minimum.stress == 2.1);
+
+  // Triaxial compression at 1.5 MPa: it collapses, hardens beyond that peak, and falls again.
+  const Curve both{{0, 1, 2, 3, 4, 5, 6, 7}, {0, 3.987, 2.49, 3.9, 4.4, 4.59, 3.986, 4.5}};
+  CHECK(first_drop(both, 0.02)->peak.stress == 3.987);
+  CHECK(first_drop(both, 0.02)->minimum.stress == 2.49);
+  CHECK(largest_drop(both).peak.stress == 4.59);
+  CHECK(largest_drop(both).minimum.stress == 3.986);
+}
+
+TEST_CASE("Variances of a line are those of the normal equations", "[unit][dem]")
+{
+  // Residuals d, -2 d, d at x = 1, 2, 3 are orthogonal to 1 and x: the line stays 5 + 2 x.
+  const double d = 0.1;
+  const auto line = fit_line({1, 2, 3}, {7 + d, 9 - 2 * d, 11 + d});
+  REQUIRE(line);
+  CHECK(line->slope == Approx(2.0).epsilon(1e-12));
+  CHECK(line->intercept == Approx(5.0).epsilon(1e-12));
+  const double variance = 6 * d * d; // one degree of freedom
+  CHECK(line->slope_variance == Approx(variance / 2.0).epsilon(1e-10));
+  CHECK(line->intercept_variance ==
+        Approx(variance * (1.0 / 3.0 + 4.0 / 2.0)).epsilon(1e-10));
+  CHECK(line->covariance == Approx(-variance * 2.0 / 2.0).epsilon(1e-10));
+  CHECK(std::isnan(fit_line({1, 2}, {3, 4})->slope_variance)); // no degree of freedom
 }
 
 TEST_CASE("The friction angle is that of Mohr's circle, whichever axis is the major one",
