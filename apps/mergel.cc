@@ -32,7 +32,8 @@ void print_help(std::ostream& out)
   out << "mergel: coupled DEM-FEM solver for weak, porous, bonded rock.\n\n"
          "usage: mergel <job> CASE.prm [--set \"Section/key=value\"]... [--output DIR] "
          "[--overwrite]\n       mergel <job> [CASE.prm] --restart DIR [--walltime 4h]\n"
-         "       mergel bench [options]\n       mergel info PATH\n\njobs:\n";
+         "       mergel bench [options]\n       mergel compare DIR...\n       mergel info "
+         "PATH\n\njobs:\n";
   for (const Job& job : jobs) {
     std::string name = job.name;
     name.resize(std::max<std::size_t>(name.size(), 8), ' ');

@@ -61,6 +61,7 @@ set(fem_floors
 set(apps_floors
     "case"
     "run: case"
+    "laboratory: case"
     "specimen: case run"
     "coupled: case run specimen"
     "pile: case run specimen coupled"
@@ -70,10 +71,14 @@ set(apps_floors
     "sample: case run specimen coupled pile element triaxial"
     "bench: case run"
     "info: case run pile element triaxial"
-    "view: case")
+    "compare: case run laboratory"
+    "view: case laboratory"
+    "view/bond: case view"
+    "view/pile: case view"
+    "view/laboratory: case laboratory view")
 
 # Loose files that stand above the folders: they see all of the package.
-set(apps_top mergel.cc)
+set(apps_top mergel.cc view/view.cc)
 
 function(check_floors package floors top)
   set(known "")

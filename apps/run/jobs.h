@@ -26,6 +26,8 @@ void help_bench(std::ostream& out); ///< every option of the job
 std::function<int()> read_bench(const std::vector<std::string>& arguments);
 void help_bond(std::ostream& out); ///< every key of the job
 int run_bond(const JobOptions& options);
+void help_compare(std::ostream& out);
+std::function<int()> read_compare(const std::vector<std::string>& arguments);
 void help_element(std::ostream& out);
 int run_element(const JobOptions& options);
 void help_info(std::ostream& out);
@@ -53,9 +55,11 @@ struct Job {
   bool reads_case() const { return std::holds_alternative<RunCase>(run); }
 };
 
-inline constexpr std::array<Job, 7> jobs{{
+inline constexpr std::array<Job, 8> jobs{{
     {"bench", "Measure what a step costs on this machine.", help_bench, read_bench},
     {"bond", "Load one bonded pair of particles along any path.", help_bond, run_bond},
+    {"compare", "Read several tests together: table, means, strength, critical states.",
+     help_compare, read_compare},
     {"element", "Load a periodic cell of bonded rock along any path of stress and strain.",
      help_element, run_element, true},
     {"info", "Describe and check a sample, a checkpoint or a results folder.", help_info,

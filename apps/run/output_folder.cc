@@ -26,13 +26,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 23> own_files{
+constexpr std::array<std::string_view, 24> own_files{
     "history.csv",      "localisation.csv", "localisation.png", "resolved.prm",
     "summary.json",     "sample.h5",        "damage.png",       "load.png",
     "displacement.png", "particles.pvd",    "bonds.pvd",        "pile.pvd",
     "platens.pvd",      "membrane.pvd",     "far_field.pvd",    "loads.png",
     "surface.png",      "element.png",      "triaxial.png",     "specimen.png",
-    "isotropic.png",    "curve.png",        "failed.json"};
+    "isotropic.png",    "curve.png",        "compare.png",      "failed.json"};
 constexpr std::string_view own_folder = "fields";
 constexpr std::string_view first_bytes_of_hdf5 = "\x89HDF\r\n\x1a\n";
 

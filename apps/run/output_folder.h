@@ -30,7 +30,7 @@ bool holds_run(const std::filesystem::path& folder);
 /// resolved.prm, summary.json, failed.json, sample.h5, the series particles, bonds, pile,
 /// far_field, platens and membrane (.pvd, and their numbered files in fields/), mergel-view's
 /// damage.png, load.png, displacement.png, loads.png, surface.png, element.png, triaxial.png,
-/// specimen.png, localisation.png, isotropic.png and curve.png, the checkpoints
+/// specimen.png, localisation.png, isotropic.png, compare.png and curve.png, the checkpoints
 /// checkpoint_*.h5 and *.h5.aside, .aside-2 and so on; also their temporary files
 /// (dem/io/atomic_file.h).
 /// fields/ itself is removed when it is empty. They are removed only from a folder that

@@ -67,6 +67,7 @@ std::string refusal(const fs::path& folder, Earlier earlier,
 }
 
 const std::vector<std::string> own = {".history.partial.csv",
+                                      "compare.png",
                                       "curve.png",
                                       "damage.png",
                                       "displacement.png",

@@ -1,0 +1,40 @@
+/// The stages of an element or triaxial test, picked from its history.
+#pragma once
+
+#include "dem/io/table.h"
+
+#include <array>
+#include <string>
+
+namespace mergel::apps {
+
+/// The strains of a history that count from the start of the test, the axial one first.
+inline constexpr std::array<const char*, 5> counted_strains{
+    "axial strain", "volumetric strain", "axial strain of the middle third",
+    "lateral strain of the middle third", "volumetric strain of the middle third"};
+inline constexpr const char* volume_of_middle = counted_strains.back();
+
+/// Whether this is the history of an element test, not of a pile, bond or triaxial test.
+bool is_element_history(const dem::Table& history);
+
+/// Whether this is the history of a triaxial test.
+bool is_triaxial_history(const dem::Table& history);
+
+/// Which stages are drawn, counted from 1.
+struct Stages {
+  int first = 0; ///< 0: all, with the strains of the whole test
+  int last = 0;  ///< 0: to the end of the test
+  bool is_all() const { return first == 0; }
+};
+
+/// "2": from stage 2 on; "2-3": stages 2 and 3.
+/// @throws InputError naming the text
+Stages stages_of(const std::string& text);
+
+/// The records of these stages. "axial strain" and "volumetric strain", and strains "of the
+/// middle third", count from where the strain of the first of them counts; the approach to
+/// the stress of that stage is left out. "... of the stage" stay as they are.
+/// @throws InputError naming the file when it holds no such stage
+dem::Table from_stages(const dem::Table& history, const Stages& stages);
+
+} // namespace mergel::apps
