@@ -1,5 +1,6 @@
 #include "apps/view/page.h"
 
+#include "apps/view/resolution.h"
 #include "apps/view/round_off.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 #include <vtkActor2D.h>
@@ -30,6 +32,7 @@ namespace {
 
 constexpr int oversampling = 2;
 constexpr char software[] = "mergel-view"; // in the head of every picture
+constexpr double dots_per_inch = 300.0;    // 1600 pixels are 13.5 cm
 constexpr double text_units = 27.0;        // height of ordinary text
 constexpr double tick_units = 8.0;         // length of a tick
 constexpr double frame_units = 1.8;        // width of frames and ticks
@@ -226,6 +229,11 @@ void Page::save(const std::filesystem::path& png)
       throw NumericalError(png.string() + ": cannot be written: " +
                            vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()) +
                            ".");
+    std::ifstream in(temporary, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    std::ofstream out(temporary, std::ios::binary);
+    if (!(out << with_resolution(bytes, dots_per_inch) << std::flush))
+      throw NumericalError(png.string() + ": cannot be written.");
   });
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace mergel::apps {
 
@@ -79,6 +80,21 @@ std::vector<double> shown(std::vector<double> values, const Axis& axis)
   return values;
 }
 
+void draw_band(Page& page, const Panel& panel, const PlotBand& band)
+{
+  for (std::size_t k = 1; k < band.x.size(); ++k) {
+    const auto is_whole = [&](std::size_t row) {
+      return std::isfinite(band.x[row]) && std::isfinite(band.low[row]) &&
+             std::isfinite(band.high[row]);
+    };
+    if (!is_whole(k - 1) || !is_whole(k)) continue;
+    page.fill({panel.at(band.x[k - 1], band.low[k - 1]), panel.at(band.x[k], band.low[k]),
+               panel.at(band.x[k], band.high[k]),
+               panel.at(band.x[k - 1], band.high[k - 1])},
+              band.colour);
+  }
+}
+
 bool has_both_signs(const Axis& axis)
 {
   return axis.from < 0.0 && axis.to > 0.0;
@@ -93,6 +109,11 @@ Axis fitting_axis(const PlotAxis& axis, const std::vector<double>& values)
     return round_axis(range(values), axis.title);
   case Reach::of_values:
     return axis_of_values(values, axis.title);
+  case Reach::downwards: {
+    Axis downwards = round_axis(range(values), axis.title);
+    std::swap(downwards.from, downwards.to);
+    return downwards;
+  }
   case Reach::decades:
     break;
   }
@@ -101,17 +122,27 @@ Axis fitting_axis(const PlotAxis& axis, const std::vector<double>& values)
 
 void draw_plot(Page& page, const Box& box, const Plot& plot)
 {
+  const auto of_x = [](const auto& part) -> const auto&
+  {
+    return part.x;
+  };
+  const auto of_y = [](const auto& part) -> const auto&
+  {
+    return part.y;
+  };
+  std::vector<double> y = all(plot, of_y);
+  for (const PlotBand& band : plot.bands) {
+    y.insert(y.end(), band.low.begin(), band.low.end());
+    y.insert(y.end(), band.high.begin(), band.high.end());
+  }
   Panel panel;
   panel.box = box;
-  panel.x = fitting_axis(plot.x,
-                         all(
-                             plot, [](const auto& part) -> const auto& { return part.x; }));
-  panel.y = fitting_axis(plot.y,
-                         all(
-                             plot, [](const auto& part) -> const auto& { return part.y; }));
+  panel.x = fitting_axis(plot.x, all(plot, of_x));
+  panel.y = fitting_axis(plot.y, y);
   panel.has_grid = true;
   draw_axes(page, panel);
 
+  for (const PlotBand& band : plot.bands) draw_band(page, panel, band);
   const Stroke zero{{0.55, 0.55, 0.55}, 2.0, {}};
   if (has_both_signs(panel.y))
     page.line({panel.at(panel.x.from, 0.0), panel.at(panel.x.to, 0.0)}, zero);

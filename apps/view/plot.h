@@ -12,6 +12,7 @@ namespace mergel::apps {
 enum class Reach {
   from_zero, ///< the axis includes 0
   of_values, ///< from the lowest to the highest value
+  downwards, ///< as from_zero, with the largest value at the left or lower end
   decades ///< logarithmic, at most three decades: what lies lower, or below 0, is left out
 };
 
@@ -30,8 +31,15 @@ struct Scatter {
   Mark mark = Mark::ring;
 };
 
+/// Between two curves.
+struct PlotBand {
+  std::vector<double> x, low, high;
+  Colour colour;
+};
+
 struct Plot {
   PlotAxis x, y;
+  std::vector<PlotBand> bands; ///< below the curves
   std::vector<PlotCurve> curves;
   std::vector<Scatter> scatters; ///< above the curves
 };

@@ -8,6 +8,7 @@
 #include "apps/view/run_name.h"
 #include "dem/io/table.h"
 
+#include <optional>
 #include <vector>
 
 namespace mergel::apps {
@@ -15,6 +16,9 @@ namespace mergel::apps {
 struct Run {
   RunName name;
   dem::Table history;
+  /// Of a mean of several runs: standard errors of its history; drawn as a band over the
+  /// axial strain.
+  std::optional<dem::Table> error = {};
 };
 
 /// What one panel shows.
@@ -26,6 +30,9 @@ struct RunPlot {
 /// Settles both quantities (quantity.h); axes include 0 unless the values are far from it.
 /// @throws InputError when a run lacks a column
 RunPlot plot_of(PlotQuantity x, PlotQuantity y, const std::vector<Run>& runs);
+
+/// The curves of the runs in this panel.
+Plot plot_of_runs(const RunPlot& plot, const std::vector<Run>& runs);
 
 /// @throws InputError naming a file whose columns are the axes of no panel
 void check_points(const std::vector<Points>& points, const std::vector<RunPlot>& plots);

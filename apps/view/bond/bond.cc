@@ -1,4 +1,4 @@
-#include "apps/view/bond.h"
+#include "apps/view/bond/bond.h"
 
 #include "apps/view/round_off.h"
 #include "dem/error.h"

@@ -1,4 +1,4 @@
-#include "apps/view/displacement.h"
+#include "apps/view/pile/displacement.h"
 
 #include "dem/error.h"
 

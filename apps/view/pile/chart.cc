@@ -1,4 +1,4 @@
-#include "apps/view/chart.h"
+#include "apps/view/pile/chart.h"
 
 #include "apps/view/curve.h"
 

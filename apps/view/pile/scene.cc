@@ -1,4 +1,4 @@
-#include "apps/view/scene.h"
+#include "apps/view/pile/scene.h"
 
 #include <algorithm>
 #include <cmath>

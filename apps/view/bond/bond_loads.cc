@@ -1,4 +1,4 @@
-#include "apps/view/bond_loads.h"
+#include "apps/view/bond/bond_loads.h"
 
 #include "apps/view/plot.h"
 

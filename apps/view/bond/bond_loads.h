@@ -1,7 +1,7 @@
 /// Loads of a bond against its imposed motion, as in the paper's Fig. 4.
 #pragma once
 
-#include "apps/view/bond.h"
+#include "apps/view/bond/bond.h"
 #include "apps/view/page.h"
 
 #include <vector>

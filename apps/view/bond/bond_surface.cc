@@ -1,4 +1,4 @@
-#include "apps/view/bond_surface.h"
+#include "apps/view/bond/bond_surface.h"
 
 #include "apps/view/curve.h"
 #include "apps/view/label.h"

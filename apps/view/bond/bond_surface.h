@@ -1,7 +1,7 @@
 /// Load paths of a bond and its shrinking yield surface, as in the paper's Fig. 5.
 #pragma once
 
-#include "apps/view/bond.h"
+#include "apps/view/bond/bond.h"
 #include "apps/view/page.h"
 
 #include <vector>
