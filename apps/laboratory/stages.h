@@ -12,6 +12,7 @@ namespace mergel::apps {
 inline constexpr std::array<const char*, 5> counted_strains{
     "axial strain", "volumetric strain", "axial strain of the middle third",
     "lateral strain of the middle third", "volumetric strain of the middle third"};
+inline constexpr const char* volume_of_cell = counted_strains[1];
 inline constexpr const char* volume_of_middle = counted_strains.back();
 
 /// Whether this is the history of an element test, not of a pile, bond or triaxial test.

@@ -45,8 +45,8 @@ std::optional<Options> read_options(int argc, char** argv, int& code)
   app.add_option(
          "DIR", options.folders,
          "Results folder written by 'mergel pile', 'mergel bond', 'mergel element' or "
-         "'mergel triaxial'; several of one job are drawn over each other (pile: with "
-         "--curve)")
+         "'mergel triaxial'; several of one job, and 'element' and 'triaxial' runs, "
+         "are drawn over each other (pile: with --curve)")
       ->required();
   app.add_option("--output", options.output,
                  "Folder for the pictures (default: DIR; required with several)");

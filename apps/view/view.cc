@@ -15,6 +15,7 @@
 #include "dem/error.h"
 #include "dem/io/table.h"
 
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <filesystem>
@@ -84,10 +85,25 @@ std::string described(Job job)
   return "an element run";
 }
 
+/// Element and triaxial runs are drawn over each other: the volumetric strain of a cylinder
+/// is that of its middle third.
+void unite_cells_and_cylinders(std::vector<dem::Table>& histories)
+{
+  const auto count = [&](Job job) {
+    return std::count_if(histories.begin(), histories.end(),
+                         [&](const dem::Table& h) { return job_of(h) == job; });
+  };
+  if (count(Job::element) == 0 || count(Job::triaxial) == 0) return;
+  for (dem::Table& history : histories)
+    for (dem::TableColumn& column : history.columns)
+      if (column.name == volume_of_middle) column.name = volume_of_cell;
+}
+
 void draw(const Options& options)
 {
   std::vector<dem::Table> histories;
   for (const std::string& folder : options.folders) histories.push_back(history_of(folder));
+  unite_cells_and_cylinders(histories);
   const auto& folders = options.folders;
   const Job job = job_of(histories.front());
   for (std::size_t k = 1; k < histories.size(); ++k) {
