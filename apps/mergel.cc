@@ -36,7 +36,7 @@ void print_help(std::ostream& out)
          "PATH\n\njobs:\n";
   for (const Job& job : jobs) {
     std::string name = job.name;
-    name.resize(std::max<std::size_t>(name.size(), 8), ' ');
+    name.resize(std::max<std::size_t>(name.size(), 9), ' ');
     out << "  " << name << "  " << job.sentence << "\n";
   }
   out << "\nexample:\n"

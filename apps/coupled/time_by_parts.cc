@@ -1,6 +1,7 @@
 #include "apps/coupled/time_by_parts.h"
 
 #include <sstream>
+#include <vector>
 
 namespace mergel::apps {
 
@@ -26,14 +27,12 @@ std::string time_by_parts(const coupling::CoupledSystem& coupled, const Work& wo
       << work.n_steps << " steps, "
       << 1e9 * whole / static_cast<double>(work.n_steps * coupled.assembly.particles.size())
       << " ns per particle;";
-  for (const Part& s : {Part{"bonds", t.bonds},
-                        {"contacts", t.contacts},
-                        {"walls", t.walls},
-                        {"motion", t.motion},
-                        {"ranks", t.exchange},
-                        {"lists", t.lists},
-                        {structures, far},
-                        {"coupling", ex}})
+  std::vector<Part> parts{{"bonds", t.bonds},    {"contacts", t.contacts},
+                          {"walls", t.walls},    {"motion", t.motion},
+                          {"ranks", t.exchange}, {"lists", t.lists}};
+  if (!coupled.structures.empty())
+    parts.insert(parts.end(), {{structures, far}, {"coupling", ex}});
+  for (const Part& s : parts)
     out << ' ' << s.name << ' ' << 100.0 * s.seconds / whole << " %,";
   out << ' ';
   return out.str();

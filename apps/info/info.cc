@@ -1,5 +1,6 @@
 /// mergel info: describes a sample, a checkpoint or a results folder, and checks that it is
 /// complete.
+#include "apps/brazilian/brazilian_output.h"
 #include "apps/case/case_scan.h"
 #include "apps/element/element_output.h"
 #include "apps/element/element_pictures.h"
@@ -142,6 +143,7 @@ bool is_whole_vtk(const fs::path& file)
 std::string lacks_before(const fs::path& folder, const dem::Checkpoint& c)
 {
   if (c.label.job == "pile") return PileOutput::check(folder, c.state);
+  if (c.label.job == "brazilian") return BrazilianOutput::check(folder, c.state);
   if (c.label.job == "triaxial") {
     CaseFile file;
     TriaxialCase own;

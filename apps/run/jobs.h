@@ -28,6 +28,8 @@ void help_bond(std::ostream& out); ///< every key of the job
 int run_bond(const JobOptions& options);
 void help_compare(std::ostream& out);
 std::function<int()> read_compare(const std::vector<std::string>& arguments);
+void help_brazilian(std::ostream& out);
+int run_brazilian(const JobOptions& options);
 void help_element(std::ostream& out);
 int run_element(const JobOptions& options);
 void help_info(std::ostream& out);
@@ -55,11 +57,13 @@ struct Job {
   bool reads_case() const { return std::holds_alternative<RunCase>(run); }
 };
 
-inline constexpr std::array<Job, 8> jobs{{
+inline constexpr std::array<Job, 9> jobs{{
     {"bench", "Measure what a step costs on this machine.", help_bench, read_bench},
     {"bond", "Load one bonded pair of particles along any path.", help_bond, run_bond},
     {"compare", "Read several tests together: table, means, strength, critical states.",
      help_compare, read_compare},
+    {"brazilian", "Press a disc of bonded rock across its diameter until it splits.",
+     help_brazilian, run_brazilian, true},
     {"element", "Load a periodic cell of bonded rock along any path of stress and strain.",
      help_element, run_element, true},
     {"info", "Describe and check a sample, a checkpoint or a results folder.", help_info,

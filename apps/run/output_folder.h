@@ -28,11 +28,11 @@ bool holds_run(const std::filesystem::path& folder);
 ///
 /// mergel's own files, which mark an earlier run, are history.csv, localisation.csv,
 /// resolved.prm, summary.json, failed.json, sample.h5, the series particles, bonds, pile,
-/// far_field, platens and membrane (.pvd, and their numbered files in fields/), mergel-view's
-/// damage.png, load.png, displacement.png, loads.png, surface.png, element.png, triaxial.png,
-/// specimen.png, localisation.png, isotropic.png, compare.png and curve.png, the checkpoints
-/// checkpoint_*.h5 and *.h5.aside, .aside-2 and so on; also their temporary files
-/// (dem/io/atomic_file.h).
+/// far_field, platens, membrane, breaks and plates (.pvd, and their numbered files in
+/// fields/), mergel-view's damage.png, load.png, displacement.png, loads.png, surface.png,
+/// element.png, triaxial.png, specimen.png, localisation.png, isotropic.png, brazilian.png,
+/// disc.png, compare.png and curve.png, the checkpoints checkpoint_*.h5 and *.h5.aside,
+/// .aside-2 and so on; also their temporary files (dem/io/atomic_file.h).
 /// fields/ itself is removed when it is empty. They are removed only from a folder that
 /// holds a run (holds_run()), or the lock of one that was killed.
 class OutputFolder {

@@ -65,7 +65,7 @@ std::vector<std::string> series_of(const fs::path& folder, const std::string& jo
 {
   if (job == "pile") return {"particles", "bonds", "pile", "far_field"};
   if (job == "sample") return {"particles", "bonds"};
-  if (job != "element" && job != "triaxial") return {};
+  if (job != "element" && job != "triaxial" && job != "brazilian") return {};
   const CaseScan scan = case_of(folder);
   const auto value_of = [&](const char* section, const char* key) {
     const auto is_it = [&](const CaseEntry& e) {
@@ -78,6 +78,7 @@ std::vector<std::string> series_of(const fs::path& folder, const std::string& jo
   if (pictures.empty() || pictures == "none") return {};
   std::vector<std::string> series{"particles", "bonds"};
   if (job == "triaxial") series.push_back("platens");
+  if (job == "brazilian") series.insert(series.end(), {"breaks", "plates"});
   if (value_of("Membrane", "membrane") == "true") series.push_back("membrane");
   return series;
 }
@@ -103,11 +104,13 @@ std::string job_of(const fs::path& folder)
   const auto has = [&](const char* section) { return scan.sections.contains(section); };
   if (has("Particles")) return "bond";
   if (has("Specimen") && holds_only_a_specimen(folder)) return "sample";
+  if (has("Plates")) return "brazilian";
   if (has("Membrane") || has("Platens")) return "triaxial";
   if (has("Loading")) return "element";
   if (has("Specimen")) return has("Pile") ? "pile" : "sample";
   const std::string heading = first_line(folder / "history.csv");
   if (heading.find("depth/D_p [-]") != std::string::npos) return "pile";
+  if (heading.find("2P/(pi D t) [Pa]") != std::string::npos) return "brazilian";
   if (heading.find("cell pressure [Pa]") != std::string::npos) return "triaxial";
   if (heading.find("axial strain [-]") != std::string::npos) return "element";
   if (heading.find("plastic theta [rad]") != std::string::npos) return "bond";
@@ -124,8 +127,8 @@ std::vector<std::string> missing_results(const fs::path& folder, const std::stri
   owe("resolved.prm");
   owe(job == "sample" ? "sample.h5" : "history.csv");
   const std::vector<std::string> owed = series_of(folder, job);
-  for (const char* name :
-       {"particles", "bonds", "pile", "far_field", "platens", "membrane"}) {
+  for (const char* name : {"particles", "bonds", "pile", "far_field", "platens", "membrane",
+                           "breaks", "plates"}) {
     const std::string pvd = std::string(name) + ".pvd";
     if (is_there(folder / pvd)) {
       const auto gone = missing_in(folder, pvd);

@@ -12,14 +12,16 @@ CaseJob job_of_case(const CaseScan& scan, const std::vector<std::string>& set)
   }
   const auto has = [&](const char* section) { return sections.contains(section); };
   std::string shape = has("Pile") ? "half cylinder" : "";
-  bool has_diameter = false;
+  bool has_diameter = false, has_velocity = false;
   for (const CaseEntry& e : entries) {
+    if (e.section == "Loading" && e.key == "velocity") has_velocity = true;
     if (e.section != "Specimen") continue;
     if (e.key == "shape") shape = e.value;
     if (e.key == "diameter") has_diameter = true;
   }
 
   if (shape == "half cylinder") return CaseJob::pile;
+  if (has("Plates") || has_velocity) return CaseJob::brazilian;
   if (has("Membrane") || has("Platens")) return CaseJob::triaxial;
   if (!has("Loading") || has("Particles")) return CaseJob::sample;
   const bool is_round = shape.empty() ? has_diameter : shape == "cylinder";

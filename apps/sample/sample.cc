@@ -1,4 +1,5 @@
 /// mergel sample: makes a specimen and writes it to a file that later runs read.
+#include "apps/brazilian/brazilian_case.h"
 #include "apps/coupled/system_of_case.h"
 #include "apps/element/element_case.h"
 #include "apps/pile/pile_case.h"
@@ -53,6 +54,10 @@ SpecimenKeys& keys_of(TriaxialCase& c)
 {
   return c.specimen;
 }
+SpecimenKeys& keys_of(BrazilianCase& c)
+{
+  return c.specimen;
+}
 SpecimenKeys& keys_of(PileCase& c)
 {
   return c.assembly;
@@ -62,6 +67,7 @@ SpecimenKeys& keys_of(PileCase& c)
 void fit_to_walls(SampleCase&) {}
 void fit_to_walls(ElementCase&) {}
 void fit_to_walls(TriaxialCase&) {}
+void fit_to_walls(BrazilianCase&) {}
 void fit_to_walls(PileCase& c)
 {
   make_far_field(c.assembly, MPI_COMM_WORLD); // sets the faces around the side
@@ -140,15 +146,14 @@ void make(const JobOptions& options)
 
 void help_sample(std::ostream& out)
 {
-  out << "A case of mergel pile, element or triaxial serves here as it is: the specimen of "
-         "that "
-         "job is\nmade, that of a pile inside the walls of its run. A section Pile, or "
-         "`shape = "
-         "half cylinder`,\ntells a case of pile; a section Membrane or Platens one of "
-         "triaxial; a "
-         "section Loading one of\ntriaxial for a cylinder, one of element for a periodic "
-         "box. Each "
-         "job lists its keys by --help.\nKeys of all other cases:\n\n";
+  out << "A case of mergel pile, element, triaxial or brazilian serves here as it is: the "
+         "specimen of\nthat job is made, that of a pile inside the walls of its run. A "
+         "section Pile, or `shape =\nhalf cylinder`, tells a case of pile; a section "
+         "Plates, "
+         "or `Loading/velocity`, one of brazilian;\na section Membrane or Platens one of "
+         "triaxial; a section Loading one of triaxial for a cylinder,\none of element for "
+         "a "
+         "periodic box. Each job lists its keys by --help.\nKeys of all other cases:\n\n";
   CaseFile file;
   SampleCase c;
   declare(file, c);
@@ -173,6 +178,9 @@ int run_sample(const JobOptions& options)
     break;
   case CaseJob::triaxial:
     make<TriaxialCase>(options);
+    break;
+  case CaseJob::brazilian:
+    make<BrazilianCase>(options);
     break;
   }
   return 0;

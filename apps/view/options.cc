@@ -37,15 +37,18 @@ std::optional<Options> read_options(int argc, char** argv, int& code)
       "strain, void ratio over log p). Triaxial runs: the same as triaxial.png, with the "
       "volumetric strain of the middle third, and of one run "
       "specimen.png (particles through the membrane, and cut open) and localisation.png "
-      "(shear strain across the slab in which it is localised). Several element or "
+      "(shear strain across the slab in which it is localised). Brazilian runs: "
+      "brazilian.png (2P/(pi D t) and broken bonds over diametral strain), and of one run "
+      "disc.png (particles by damage, and breaks by mode). Several element or "
       "triaxial runs besides: mohr.png (circles and Coulomb line at the peak and in the "
       "critical state), critical_state.png and yield.png, where they mean something. Any "
       "runs, with --curve: curve.png, with --compare: compare.png.",
       "mergel-view");
   app.add_option(
          "DIR", options.folders,
-         "Results folder written by 'mergel pile', 'mergel bond', 'mergel element' or "
-         "'mergel triaxial'; several of one job, and 'element' and 'triaxial' runs, "
+         "Results folder written by 'mergel pile', 'mergel bond', 'mergel element', "
+         "'mergel triaxial' or 'mergel brazilian'; several of one job, and 'element' and "
+         "'triaxial' runs, "
          "are drawn over each other (pile: with --curve)")
       ->required();
   app.add_option("--output", options.output,
@@ -84,10 +87,10 @@ std::optional<Options> read_options(int argc, char** argv, int& code)
          "\"axial strain [%],q [MPa]\" or \"depth [mm],q_c [MPa]\", and each gets a panel; "
          "repeatable")
       ->allow_extra_args(false);
-  const auto* frame = app.add_option(
-      "--frame", options.frame,
-      "Frame of a pile or triaxial run to draw, from 0; negative: from the end (default: "
-      "the last)");
+  const auto* frame = app.add_option("--frame", options.frame,
+                                     "Frame of a pile, triaxial or Brazilian run to draw, "
+                                     "from 0; negative: from the end (default: "
+                                     "the last)");
   const auto* size =
       app.add_option(
              "--size", size_text,

@@ -38,8 +38,9 @@ std::vector<RunName> run_names(const Options& options)
   const auto& folders = options.folders;
   require(!options.has_frame,
           "--frame " + std::to_string(options.frame) +
-              ": is for damage.png and displacement.png of a pile run and for specimen.png "
-              "and localisation.png of one triaxial run; curves have no frames. Leave it out.");
+              ": is for damage.png and displacement.png of a pile run, for specimen.png "
+              "and localisation.png of one triaxial run and for disc.png of one Brazilian "
+              "run; curves have no frames. Leave it out.");
   require(options.labels.empty() || options.labels.size() == folders.size(),
           "--label: given " + std::to_string(options.labels.size()) + " times for " +
               std::to_string(folders.size()) +

@@ -81,9 +81,12 @@ vtkDataArray* require_array(vtkDataSet* data, const char* name, int components,
   return array;
 }
 
+/// A file without points.
+enum class Empty { refused, allowed };
+
 /// The data set of a .vtp or .vtu in mm.
 template <class Reader>
-auto read(const fs::path& file)
+auto read(const fs::path& file, Empty empty = Empty::refused)
 {
   require(fs::is_regular_file(file),
           file.string() + ": does not exist, though the series lists it. Copy the whole "
@@ -95,9 +98,10 @@ auto read(const fs::path& file)
   auto* output = reader->GetOutput();
   require(!listener.heard() && reader->GetErrorCode() == vtkErrorCode::NoError,
           file.string() + ": is damaged or no VTK file. Copy it again or repeat the run.");
-  require(output->GetNumberOfPoints() > 0, file.string() + ": holds no points.");
+  require(empty == Empty::allowed || output->GetNumberOfPoints() > 0,
+          file.string() + ": holds no points.");
   vtkSmartPointer<std::remove_pointer_t<decltype(output)>> data = output;
-  scale(data->GetPoints()->GetData());
+  if (data->GetNumberOfPoints() > 0) scale(data->GetPoints()->GetData());
   return data;
 }
 
@@ -169,6 +173,25 @@ SpecimenFrame read_specimen(const fs::path& folder, int number)
   if (fs::exists(folder / "membrane.pvd"))
     frame.membrane =
         read<vtkXMLPolyDataReader>(file_at(frame.time, folder / "membrane.pvd"));
+  return frame;
+}
+
+DiscFrame read_disc(const fs::path& folder, int number)
+{
+  const dem::SeriesEntry entry = entry_of(folder, number).first;
+  DiscFrame frame;
+  frame.time = entry.time;
+  frame.particles = read_particles(folder / entry.file);
+  frame.plates = read<vtkXMLPolyDataReader>(file_at(frame.time, folder / "plates.pvd"));
+  const fs::path breaks = file_at(frame.time, folder / "breaks.pvd");
+  frame.breaks = read<vtkXMLPolyDataReader>(breaks, Empty::allowed);
+  if (frame.breaks->GetNumberOfPoints() == 0) {
+    frame.breaks = nullptr;
+    return frame;
+  }
+  scale(require_array(frame.breaks, "radius", 1, breaks));
+  require_array(frame.breaks, "mode", 1, breaks);
+  require_array(frame.breaks, "normal", 3, breaks);
   return frame;
 }
 

@@ -1,4 +1,5 @@
-/// Results of `mergel pile` and `mergel triaxial` at one instant, read for drawing.
+/// Results of `mergel pile`, `mergel triaxial` and `mergel brazilian` at one instant, read for
+/// drawing.
 #pragma once
 
 #include <filesystem>
@@ -36,5 +37,17 @@ struct SpecimenFrame {
 
 /// @throws InputError as above
 SpecimenFrame read_specimen(const std::filesystem::path& folder, int number);
+
+/// One frame of a Brazilian test, in mm too.
+struct DiscFrame {
+  double time = 0.0;                      ///< [s]
+  vtkSmartPointer<vtkPolyData> particles; ///< as above
+  vtkSmartPointer<vtkPolyData> plates;    ///< both
+  /// Point arrays "radius", "mode" and "normal"; null before the first.
+  vtkSmartPointer<vtkPolyData> breaks;
+};
+
+/// @throws InputError as above
+DiscFrame read_disc(const std::filesystem::path& folder, int number);
 
 } // namespace mergel::apps

@@ -1,11 +1,13 @@
 /// mergel-view: pictures of runs. Of a pile run: damage.png, displacement.png and load.png;
 /// of bond runs: loads.png and surface.png; of element runs: element.png or isotropic.png;
 /// of triaxial runs: triaxial.png or isotropic.png, and of one specimen.png and
-/// localisation.png; of several element or triaxial runs besides: mohr.png,
-/// critical_state.png and yield.png; of any: curve.png and compare.png.
+/// localisation.png; of Brazilian runs: brazilian.png, and of one disc.png; of several element
+/// or triaxial runs besides: mohr.png, critical_state.png and yield.png; of any: curve.png and
+/// compare.png.
 
 #include "apps/view/bond/bond.h"
 #include "apps/view/bond/draw_bonds.h"
+#include "apps/view/brazilian.h"
 #include "apps/view/element.h"
 #include "apps/view/laboratory/draw_compare.h"
 #include "apps/view/laboratory/draw_laboratory.h"
@@ -61,12 +63,13 @@ dem::Table history_of(const fs::path& folder)
   return history;
 }
 
-enum class Job { pile, bond, element, triaxial };
+enum class Job { pile, bond, element, triaxial, brazilian };
 
 Job job_of(const dem::Table& history)
 {
   if (is_bond_history(history)) return Job::bond;
   if (is_triaxial_history(history)) return Job::triaxial;
+  if (is_brazilian_history(history)) return Job::brazilian;
   return is_element_history(history) ? Job::element : Job::pile;
 }
 
@@ -79,6 +82,8 @@ std::string described(Job job)
     return "a bond run";
   case Job::triaxial:
     return "a triaxial run";
+  case Job::brazilian:
+    return "a Brazilian run";
   case Job::element:
     break;
   }
@@ -132,24 +137,25 @@ void draw(const Options& options)
     draw_curves(options, stages, histories);
     return;
   }
-  require(options.points.empty() || has_stages,
+  require(options.points.empty() || has_stages || job == Job::brazilian,
           "--points " + (options.points.empty() ? "" : options.points.front()) +
-              ": is for element and triaxial runs and for --curve; " + folders.front() +
-              " holds " + described(job) + ". Leave it out.");
+              ": is for element, triaxial and Brazilian runs and for --curve; " +
+              folders.front() + " holds " + described(job) + ". Leave it out.");
   if (job == Job::element) {
     draw_stages(options, stages, histories, "element.png");
     draw_laboratory(options);
   } else if (job == Job::triaxial) {
     draw_triaxial(options, stages, histories);
     draw_laboratory(options);
+  } else if (job == Job::brazilian) {
+    draw_brazilian(options, histories);
   } else if (job == Job::bond) {
     draw_bonds(options, histories);
   } else {
-    require(
-        histories.size() == 1,
-        std::to_string(histories.size()) +
-            " folders of pile runs: only bond, element and triaxial runs, and the curves "
-            "of --curve, are drawn together. Draw them one by one.");
+    require(histories.size() == 1,
+            std::to_string(histories.size()) +
+                " folders of pile runs: only bond, element, triaxial and Brazilian runs, "
+                "and the curves of --curve, are drawn together. Draw them one by one.");
     draw_pile(options, histories.front());
   }
 }

@@ -145,22 +145,35 @@ double share_between(double z_from, double z_to, double z_low, double z_high)
   return inside >= 0.0 ? 1.0 : 0.0;
 }
 
-} // namespace
+/// Share of the branch x + s r, s in [0, 1], inside a box with edges along the axes.
+double share_inside(const Vec3& x, const Vec3& r, const Vec3& low, const Vec3& high)
+{
+  double from = 0.0, to = 1.0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    if (r[k] == 0.0) {
+      if (x[k] < low[k] || x[k] > high[k]) return 0.0;
+      continue;
+    }
+    const double at_low = (low[k] - x[k]) / r[k], at_high = (high[k] - x[k]) / r[k];
+    const auto [enters, leaves] = std::minmax(at_low, at_high);
+    from = std::max(from, enters);
+    to = std::min(to, leaves);
+  }
+  return std::max(0.0, to - from);
+}
 
-Mat3 slab_stress(const Assembly& assembly, double z_low, double z_high, double area)
+/// Show the force F on the first particle of each loaded bond and contact to
+/// `visit(x, r, F)`; x is the centre of that particle, r the branch to the second.
+template <class Visit>
+void visit_branches(const Assembly& assembly, Visit&& visit)
 {
   const Particles& p = assembly.particles;
-  TensorSum virial;
-  const auto add_force = [&](const Vec3& from, const Vec3& r, const Vec3& F) {
-    const double share = share_between(from.z(), from.z() + r.z(), z_low, z_high);
-    if (share > 0.0) add(virial, share * F * r.transpose());
-  };
-  const auto add_contact = [&](const Pair& q, const Vec3& f_s) {
+  const auto visit_contact = [&](const Pair& q, const Vec3& f_s) {
     const double f_n =
         read_contact(q, f_s, p, assembly.cell, assembly.material.contact).f_n;
     if (f_n == 0.0) return;
     const Branch b(assembly, q);
-    add_force(p.state[q.i].x, b.r, f_s - f_n * b.n());
+    visit(p.state[q.i].x, b.r, Vec3(f_s - f_n * b.n()));
   };
   for (std::size_t k = 0; k < assembly.bonds.size(); ++k) {
     const Pair& q = assembly.bonds.pairs[k];
@@ -169,23 +182,51 @@ Mat3 slab_stress(const Assembly& assembly, double z_low, double z_high, double a
       const Branch b(assembly, q);
       const BondReading bond =
           read_bond(assembly.bonds, k, p, assembly.cell, assembly.material.bond);
-      add_force(p.state[q.i].x, b.r, bond.N * b.n() + bond.V);
+      visit(p.state[q.i].x, b.r, Vec3(bond.N * b.n() + bond.V));
     }
-    add_contact(q, contact_shear_of(assembly.bonds, k));
+    visit_contact(q, contact_shear_of(assembly.bonds, k));
   }
   for (std::size_t c = 0; c < assembly.contacts.pairs.size(); ++c)
     if (p.owns(assembly.contacts.pairs[c].i))
-      add_contact(assembly.contacts.pairs[c], assembly.contacts.shear[c].f_s);
-  for (const Wall& wall : assembly.walls)
-    for (const WallContactForce& c : wall.contact_forces) {
-      const Vec3& x = p.state[c.particle].x;
-      add_force(x, c.point - x, c.f);
-    }
+      visit_contact(assembly.contacts.pairs[c], assembly.contacts.shear[c].f_s);
+}
+
+/// Sum of all ranks over the volume, symmetric part.
+Mat3 stress_of(TensorSum& virial, double volume, const Communicator& comm)
+{
   ExactReduction sums;
   list(sums, virial);
-  sums.run(assembly.comm);
-  const Mat3 sigma = value(virial) / (area * (z_high - z_low));
+  sums.run(comm);
+  const Mat3 sigma = value(virial) / volume;
   return 0.5 * (sigma + sigma.transpose());
+}
+
+} // namespace
+
+Mat3 slab_stress(const Assembly& assembly, double z_low, double z_high, double area)
+{
+  TensorSum virial;
+  const auto add_force = [&](const Vec3& from, const Vec3& r, const Vec3& F) {
+    const double share = share_between(from.z(), from.z() + r.z(), z_low, z_high);
+    if (share > 0.0) add(virial, share * F * r.transpose());
+  };
+  visit_branches(assembly, add_force);
+  for (const Wall& wall : assembly.walls)
+    for (const WallContactForce& c : wall.contact_forces) {
+      const Vec3& x = assembly.particles.state[c.particle].x;
+      add_force(x, c.point - x, c.f);
+    }
+  return stress_of(virial, area * (z_high - z_low), assembly.comm);
+}
+
+Mat3 box_stress(const Assembly& assembly, const Vec3& low, const Vec3& high, double volume)
+{
+  TensorSum virial;
+  visit_branches(assembly, [&](const Vec3& x, const Vec3& r, const Vec3& F) {
+    const double share = share_inside(x, r, low, high);
+    if (share > 0.0) add(virial, share * F * r.transpose());
+  });
+  return stress_of(virial, volume, assembly.comm);
 }
 
 std::vector<Mat3> particle_stresses(const Assembly& assembly)

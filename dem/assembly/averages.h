@@ -37,6 +37,11 @@ CellAverages cell_averages(const Assembly& assembly);
 /// @param area of the cross-section [m^2]
 Mat3 slab_stress(const Assembly& assembly, double z_low, double z_high, double area);
 
+/// Stress of a box with edges along the axes [Pa], tension positive, symmetric part: Love's sum
+/// over all branches from centre to centre, each with its share inside the box, divided by
+/// `volume` [m^3]: what the box has of the specimen. Walls are left out. Collective.
+Mat3 box_stress(const Assembly& assembly, const Vec3& low, const Vec3& high, double volume);
+
 /// Stress of each particle of a gathered assembly [Pa], tension positive: symmetric part of
 /// Love's sum F (x) (x_c - x_i) over its contacts, F on the particle, divided by its share
 /// v/(1 - n) of the cell, v the sphere volume. The mean weighted with these shares is the

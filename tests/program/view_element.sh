@@ -103,7 +103,7 @@ refused 'wrong dimension' sheared --curve "p [mm]:q"
 refused 'with a colon between' sheared --curve "p"
 refused 'are the axes of no panel' sheared --curve "p:void ratio" --points points.csv
 refused 'are the axes of no panel' iso --points points.csv
-refused '--points points.csv: is for element and triaxial runs' pile --points points.csv
+refused '--points points.csv: is for element, triaxial and Brazilian runs' pile --points points.csv
 refused 'cannot be read' sheared --points nowhere.csv
 printf '1,2\n3,4\n' >bare.csv
 refused 'with their names above' sheared --points bare.csv

@@ -1,5 +1,6 @@
 #include "apps/view/laboratory/draw_tests.h"
 
+#include "apps/view/brazilian.h"
 #include "apps/view/element.h"
 #include "apps/view/laboratory/mean_runs.h"
 #include "apps/view/localisation.h"
@@ -105,6 +106,26 @@ void draw_triaxial(const Options& options, const Stages& stages,
     draw_bands(options, frame);
   } else if (is_one) {
     std::cout << "no specimen.png: the folder holds no particles.pvd\n";
+  }
+}
+
+void draw_brazilian(const Options& options, const std::vector<dem::Table>& histories)
+{
+  const fs::path folder = options.folders.front();
+  const bool is_one = histories.size() == 1;
+  const bool has_pictures = is_one && fs::exists(folder / "particles.pvd");
+  Options of_panels = options;
+  of_panels.has_frame = options.has_frame && !has_pictures;
+  DiscFrame frame;
+  if (has_pictures) frame = read_disc(folder, options.frame); // refused before any picture
+  const std::vector<Run> runs = runs_of(of_panels, {}, histories);
+  draw_panels(options, brazilian_plots(runs), runs, "brazilian.png");
+  if (has_pictures) {
+    Page page(options.size.width, options.size.height);
+    draw_disc(page, frame, histories.front());
+    save(options, page, picture_folder(options) / "disc.png");
+  } else if (is_one) {
+    std::cout << "no disc.png: the folder holds no particles.pvd\n";
   }
 }
 

@@ -26,6 +26,9 @@ void draw_stages(const Options& options, const Stages& stages,
 void draw_triaxial(const Options& options, const Stages& stages,
                    const std::vector<dem::Table>& histories);
 
+/// The panels, and of one test the disc at a time of its pictures.
+void draw_brazilian(const Options& options, const std::vector<dem::Table>& histories);
+
 /// curve.png.
 void draw_curves(const Options& options, const Stages& stages,
                  const std::vector<dem::Table>& histories);

@@ -53,9 +53,10 @@ void draw_pile(const Options& options, const dem::Table& history)
 {
   const fs::path folder = options.folders.front();
   if (!options.labels.empty())
-    throw InputError("--label " + options.labels.front() +
-                     ": is for bond, element and triaxial runs, and for --curve; " +
-                     folder.string() + " holds a pile run. Leave it out.");
+    throw InputError(
+        "--label " + options.labels.front() +
+        ": is for bond, element, triaxial and Brazilian runs, and for --curve; " +
+        folder.string() + " holds a pile run. Leave it out.");
   ResultFrame frame = read_frame(folder, options.frame);
   const fs::path output = picture_folder(options);
   const auto draw_picture = [&](AssemblyPicture picture, const char* name) {

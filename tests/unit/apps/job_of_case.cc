@@ -32,6 +32,9 @@ TEST_CASE("mergel sample knows the job of every case that ships", "[unit][apps]"
                            "element_dense.prm", "element_scale.prm"})
     CHECK(job_of_file(name) == CaseJob::element);
   CHECK(job_of_file("triaxial_small.prm") == CaseJob::triaxial);
+  CHECK(job_of_file("ucs.prm") == CaseJob::triaxial);
+  CHECK(job_of_file("brazilian.prm") == CaseJob::brazilian);
+  CHECK(job_of_file("brazilian_small.prm") == CaseJob::brazilian);
   CHECK(job_of_file("bond_fig5a.prm") == CaseJob::sample); // which has no such sections
 }
 
@@ -51,5 +54,9 @@ TEST_CASE("The job of a case follows from sections, shape and keys", "[unit][app
   CHECK(job(specimen("edge x = 5 mm"), {"Specimen/shape=half cylinder"}) == CaseJob::pile);
   CHECK(job(specimen("edge x = 5 mm") + loading, {"Platens/friction=0.3"}) ==
         CaseJob::triaxial);
+  CHECK(job(specimen("diameter = 5 mm") + "subsection Plates\nend\n") ==
+        CaseJob::brazilian);
+  CHECK(job(specimen("diameter = 5 mm") + loading, {"Loading/velocity=1 mm/s"}) ==
+        CaseJob::brazilian);
   CHECK(job("subsection Pile\nend\n", {"Specimen/shape=cylinder"}) == CaseJob::sample);
 }

@@ -60,6 +60,18 @@ void write_triaxial_run(const fs::path& folder, const std::string& membrane)
   if (membrane == "true") write_series(folder, "membrane");
 }
 
+/// What a finished Brazilian run leaves.
+void write_brazilian_run(const fs::path& folder)
+{
+  write(folder / "resolved.prm",
+        "subsection Specimen\nend\nsubsection Plates\nend\nsubsection Loading\nend\n"
+        "subsection Output\n set pictures = ends\nend\n");
+  for (const char* name : {"history.csv", "summary.json", "sample.h5"})
+    write(folder / name);
+  for (const char* name : {"particles", "bonds", "breaks", "plates"})
+    write_series(folder, name);
+}
+
 } // namespace
 
 TEST_CASE("A finished run lacks every file that is removed from it", "[unit][apps]")
@@ -93,6 +105,19 @@ TEST_CASE("A triaxial run lacks every series that is removed, and no membrane wi
   const TemporaryFolder unconfined;
   write_triaxial_run(unconfined.path, "false");
   CHECK(missing_results(unconfined.path, "triaxial", Extent::finished).empty());
+}
+
+TEST_CASE("A Brazilian run lacks every series that is removed", "[unit][apps]")
+{
+  for (const char* removed : {"particles.pvd", "bonds.pvd", "plates.pvd", "breaks.pvd",
+                              "fields/plates_0000.vtp", "fields/breaks_0000.vtp"}) {
+    const TemporaryFolder folder;
+    write_brazilian_run(folder.path);
+    REQUIRE(job_of(folder.path) == "brazilian");
+    CHECK(missing_results(folder.path, "brazilian", Extent::finished).empty());
+    fs::remove(folder.path / removed);
+    CHECK(missing_results(folder.path, "brazilian", Extent::finished) == Names{removed});
+  }
 }
 
 TEST_CASE("Series are owed by the jobs that write them, at the end", "[unit][apps]")
@@ -141,6 +166,8 @@ TEST_CASE("The job of a folder is told by its case, else by its history", "[unit
              {"summary.json", "{\"porosity wanted [-]\": 0.5}"}}) == "sample");
   CHECK(job({{"history.csv", "time [s],axial strain [-],cell pressure [Pa]\n"}}) ==
         "triaxial");
+  CHECK(job({{"history.csv", "time [s],diametral strain [-],2P/(pi D t) [Pa]\n"}}) ==
+        "brazilian");
   CHECK(job({{"history.csv", "time [s],depth [m],depth/D_p [-]\n"}}) == "pile");
   CHECK(job({{"history.csv", "time [s],stage [-],axial strain [-]\n"}}) == "element");
   CHECK(job({{"history.csv", "u_n [m],plastic theta [rad]\n"}}) == "bond");
