@@ -13,20 +13,6 @@ BrazilianCase::BrazilianCase()
 
 namespace {
 
-/// Tensile force that breaks a bond, over its section [Pa].
-double tensile_strength(const dem::BondLaw& bond)
-{
-  return std::visit(
-      [](const auto& law) {
-        const dem::BondShape<double> shape = bond_shape(law, 1.0, 1.0);
-        return single_strengths(law, shape).tension / shape.A;
-      },
-      bond);
-}
-
-/// Index strength of the rock over the strength of its bonds [-]: some 1/16 for the paper's.
-constexpr double strength_share = 1.0 / 16.0;
-
 void declare_plates(CaseFile& file, PlateKeys& p)
 {
   const auto section = file.section("Plates");
@@ -100,7 +86,6 @@ void complete(CaseFile& file, BrazilianCase& c)
   file.derive("Plates", "contact modulus", dem::modulus_at_rigid_wall(c.material.contact));
   c.plate_contact =
       wall_contact(c.material.contact, c.plates.contact_modulus, c.plates.friction);
-  c.reference_stress = strength_share * tensile_strength(c.material.bond);
 }
 
 coupling::CoupledSpec coupled_spec(const BrazilianCase& c)

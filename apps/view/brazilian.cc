@@ -24,8 +24,7 @@ bool is_brazilian_history(const dem::Table& history)
 std::vector<RunPlot> brazilian_plots(const std::vector<Run>& runs)
 {
   const PlotQuantity strain = quantity("diametral strain", "%");
-  PlotQuantity stress = quantity(index_stress, "MPa");
-  stress.words = "2P/(\xCF\x80 D t)";
+  const PlotQuantity stress = quantity(index_stress, "MPa");
   std::vector<RunPlot> plots{plot_of(strain, stress, runs),
                              plot_of(strain, quantity("broken bonds", "-"), runs)};
   for (RunPlot& plot : plots) plot.x_reach = plot.y_reach = Reach::from_zero;

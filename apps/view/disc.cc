@@ -27,7 +27,7 @@ std::string caption(const dem::Table& history, double time)
   };
   char text[160];
   std::snprintf(text, sizeof text,
-                "diametral strain %.3g %%     2P/(\xCF\x80 D t) %.2f MPa     time %.4g ms"
+                "diametral strain %.3g %%     2P/(pi D t) %.3g MPa     time %.4g ms"
                 "     %.0f bonds broken",
                 100.0 * at("diametral strain", "-"), 1e-6 * at("2P/(pi D t)", "Pa"),
                 1e3 * time, at("broken bonds", "-"));
@@ -108,14 +108,15 @@ void draw_disc(Page& page, const DiscFrame& frame, const dem::Table& history)
   const AssemblyPicture picture = damage_picture();
   const auto table = lookup_table(picture);
   const double u = page.unit();
-  const Bounds plates = bounds(frame.plates), all = bounds(frame.particles);
+  const Bounds plates = bounds(frame.plates);
   const double gap = plates[5] - plates[4], thickness = thickness_of_plates * gap;
 
-  const double left = 130.0 * u, between = 60.0 * u, legend = 260.0 * u;
-  const double top = page.height() - 90.0 * u, bottom = 115.0 * u;
-  const double widest = 1.06 * 2.0 * std::max(-all[0], all[1]);
-  const Window window{0.0, 0.5 * (plates[4] + plates[5]), widest, gap + 3.0 * thickness};
-  const double room = 0.5 * (page.width() - legend - left - between);
+  const double left = 130.0 * u, between = 60.0 * u, right = 30.0 * u;
+  const double top = page.height() - 90.0 * u, bottom = 430.0 * u; // legends below
+  // A split disc is wider than its plates; fragments that fly off are left out.
+  const Window window{0.0, 0.5 * (plates[4] + plates[5]), 1.25 * (plates[1] - plates[0]),
+                      gap + 3.0 * thickness};
+  const double room = 0.5 * (page.width() - right - left - between);
   const double px_per_mm = std::min((top - bottom) / window.height, room / window.width);
   const double width = window.width * px_per_mm, z_from = top - window.height * px_per_mm;
 
@@ -138,10 +139,9 @@ void draw_disc(Page& page, const DiscFrame& frame, const dem::Table& history)
     draw_plates(page, *panel, plates, thickness);
     draw_axes(page, *panel);
   }
-  const double bar = left + 2.0 * width + between + 35.0 * u, height = top - z_from;
-  draw_legend(page, {bar, z_from + 0.50 * height, bar + 40.0 * u, z_from + 0.85 * height},
-              picture, table);
-  draw_modes(page, {bar, z_from + 0.30 * height}, modes);
+  const double foot = z_from - 370.0 * u;
+  draw_legend(page, {left, foot, left + 40.0 * u, foot + 170.0 * u}, picture, table);
+  draw_modes(page, {cracks.box.left, foot + 192.0 * u}, modes);
   page.text({left, top + 25.0 * u}, caption(history, frame.time),
             {1.1, Across::left, Up::foot});
 }

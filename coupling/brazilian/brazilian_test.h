@@ -13,8 +13,6 @@ struct BrazilianControl {
   double strain_limit = 0.0; ///< largest diametral strain [-], > 0
   double final_load = 0.0;   ///< share of the largest load below which the test ends [-]
   double record_every = 0.0; ///< diametral strain [-], > 0
-  /// Stress whose elastic energy counts as work in the energy error [Pa], > 0.
-  double reference_stress = 0.0;
 };
 
 /// Contact of the rim with both plates. A strip of Hertz's pressure has half the width

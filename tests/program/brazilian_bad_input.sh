@@ -9,21 +9,21 @@ case_file=$root/apps/cases/brazilian_small.prm good_job=brazilian
 place='((good\.prm(:[0-9]+)?: )|--set )'
 
 ## loading
-refuse_set "plates at rest" '--set Loading/velocity = 0 mm/s: must satisfy value > 0 mm/s.*' "Loading/velocity=0 mm/s"
-refuse_set "plates that part" '--set Loading/velocity = -1 mm/s: must satisfy value > 0 mm/s.*' "Loading/velocity=-1 mm/s"
+refuse_set "plates at rest" '--set Loading/velocity = 0 mm/s: must satisfy value > 0\..*' "Loading/velocity=0 mm/s"
+refuse_set "plates that part" '--set Loading/velocity = -1 mm/s: must satisfy value > 0\..*' "Loading/velocity=-1 mm/s"
 refuse_set "a velocity in another dimension" '--set Loading/velocity = 1 MPa: .*' "Loading/velocity=1 MPa"
 refuse_set "no strain" '--set Loading/strain limit = 0: must satisfy .*' "Loading/strain limit=0"
 refuse_set "a strain that leaves no disc" '--set Loading/strain limit = 0\.5: must satisfy .*' "Loading/strain limit=0.5"
 refuse_set "a load that never falls so far" '--set Loading/final load = 1: must satisfy .*' "Loading/final load=1"
 refuse_set "a negative load" '--set Loading/final load = -0\.1: must satisfy .*' "Loading/final load=-0.1"
-refuse_set "loading stages" '--set Loading/stage 1: .*' "Loading/stage 1=compression to axial strain = 1 %"
-refuse_set "a key written wrongly" '--set Loading/velocty: .*velocity.*' "Loading/velocty=1 mm/s"
+refuse_set "loading stages" '--set Loading/stage 1 = .*: unknown key in section "Loading"\. Its keys are velocity, strain limit, final load\.' "Loading/stage 1=compression to axial strain = 1 %"
+refuse_set "a key written wrongly" '--set Loading/velocty = 1 mm/s: unknown key .* Did you mean "velocity"\?' "Loading/velocty=1 mm/s"
 
 ## plates, motion
 refuse_set "plates that pull along the rim" '--set Plates/friction = -0\.1: must satisfy .*' "Plates/friction=-0.1"
 refuse_set "soft plates" '--set Plates/contact modulus = 0 GPa: must satisfy .*' "Plates/contact modulus=0 GPa"
-refuse_set "a platen" '--set Platens/friction: .*' "Platens/friction=0.1"
-refuse_set "a membrane" '--set Membrane/membrane: .*' "Membrane/membrane=true"
+refuse_set "a platen" '--set Platens/friction = 0\.1: unknown section "Platens"\. Did you mean "Plates"\?' "Platens/friction=0.1"
+refuse_set "a membrane" '--set Membrane/membrane = true: unknown section "Membrane"\. .*' "Membrane/membrane=true"
 refuse_set "damping that stops all" '--set Motion/damping = 1: must satisfy .*' "Motion/damping=1"
 
 ## output

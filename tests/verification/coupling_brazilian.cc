@@ -58,8 +58,10 @@ TEST_CASE(
   CHECK(elastic_stress(disc, P, 1.5e-3).xx < T);
 }
 
-TEST_CASE("An elastic disc of particles has Hertz's stresses at its centre within 5 %",
-          "[verification][coupling]")
+TEST_CASE(
+    "An elastic disc of particles has Hertz's stresses at its centre within 5 %, and his "
+    "contact width within 40 %",
+    "[verification][coupling]")
 {
   const dem::SpecimenSpec s = specimen();
   const dem::Packing packing = dem::pack(
@@ -72,9 +74,8 @@ TEST_CASE("An elastic disc of particles has Hertz's stresses at its centre withi
 
   BrazilianControl control;
   control.velocity = 0.1; // a wave of 50 kPa, against stresses of MPa
-  control.strain_limit = 4e-3;
-  control.record_every = 1e-3;
-  control.reference_stress = 2e6;
+  control.strain_limit = 12e-3;
+  control.record_every = 1e-4;
   BrazilianTest test(control, disc, dem::with_friction(dem::without_gap(s.contact), 0.0),
                      system);
   BrazilianRecord r = test.record();
@@ -88,7 +89,23 @@ TEST_CASE("An elastic disc of particles has Hertz's stresses at its centre withi
             << r.centre.zz << " (" << hertz.zz << ") Pa");
   CHECK(r.centre.xx == Approx(hertz.xx).epsilon(0.05));
   CHECK(r.centre.zz == Approx(hertz.zz).epsilon(0.05));
-  CHECK(r.F_top == Approx(r.F_bottom).epsilon(0.02));
+  CHECK(r.F_top == Approx(r.F_bottom).epsilon(0.01));
+
+  // Any horizontal section carries P.
+  const double area = disc.diameter * disc.thickness;
+  const dem::Mat3 slab = dem::slab_stress(system.assembly, -w, w, area);
+  const dem::Mat3 box =
+      dem::box_stress(system.assembly, {-1.0, -1.0, -w}, {1.0, 1.0, w}, 2.0 * w * area);
+  CHECK((slab - box).norm() < 1e-12 * slab.norm());
+  CHECK(-slab(2, 2) * area == Approx(r.load).epsilon(0.02));
+
+  // Hertz's strip: b^2 = 4 P R (1 - nu^2)/(pi t E), Johnson (1985), eq. (4.43), with E and nu
+  // of this rock in an element test. It is 1.5 particles wide: no closer
+  // comparison has a meaning. Two packings measured 3 and 30 % above it.
+  const double E = 1.1e9, nu = 0.22;
+  const double b = std::sqrt(4.0 * r.load * disc.radius() * (1.0 - nu * nu) /
+                             (dem::pi * disc.thickness * E));
+  CHECK(disc.radius() * std::sin(r.contact.half_angle) == Approx(b).epsilon(0.4));
   CHECK(std::abs(r.energy_error) < 1e-4);
   CHECK(r.broken == 0);
 }
