@@ -46,11 +46,10 @@ struct PlaneStress {
 /// @param half_width >= 0, below R/sqrt(2) [m]
 PlaneStress elastic_stress(const DiscGeometry& disc, double P, double half_width);
 
-/// Where a disc breaks. Two thirds of the loaded diameter between plates and centre belong to
-/// neither.
+/// Where a bond of a disc broke.
 enum class DiscZone {
   centre, ///< within D/6 of the centre, along x and along z
-  plates, ///< within D/6 of the height of a plate: |z| >= D/3
+  plates, ///< the outer sixths of the height: |z| >= D/3
   split,  ///< elsewhere within D/6 of the loaded diameter
   sides   ///< the rest
 };
