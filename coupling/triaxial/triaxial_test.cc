@@ -410,7 +410,7 @@ TriaxialRecord TriaxialTest::record()
     s.largest_progress = std::max(s.largest_progress, s.active.progress(soil(s.axial)));
   s.top_sum = s.bottom_sum = s.pressure_sum = s.since_record = 0.0;
   s.n_sum = 0;
-  // At first, while the membrane sinks into the pores at speed, the error is up to 6e-4; then it
+  // At first, while the membrane sinks into the pores at speed, the error is up to 1e-3; then it
   // falls below 1e-4 (triaxial_small).
   s.alarm.add(r.energy_error, s.time, s.gross_work, 5.0 * reference);
   if (!(std::abs(r.energy_error) <= 0.01))
