@@ -11,8 +11,12 @@
 namespace mergel::dem {
 
 /// A force for each node, with the bits of a VectorSum each: every term is rounded to the
-/// quantum by itself. Nearly all terms and sums have room in 64 bits; what has not goes to wide
-/// sums, which exist from then on.
+/// quantum by itself. Nearly all sums have room in 64 bits; what has not goes to wide sums, which
+/// exist from then on.
+///
+/// At most most_lane_terms terms below largest_lane_term are added to a node without a look at
+/// its sum: together they stay below 2^62. Any other term stays in 64 bits where the sum is then
+/// below 2^61.
 class NodalSums {
 public:
   explicit NodalSums(std::size_t n_nodes = 0) : narrow_(n_nodes, Quanta{}) {}
@@ -33,7 +37,7 @@ public:
     Quanta& sum = narrow_[node];
     if (any(!(magnitude(scaled) < largest_lane_term)) || sum[n_terms] == most_lane_terms)
         [[unlikely]] // or not a number
-      return add_wide(node, force);
+      return add_checked(node, force);
     sum += rounded(scaled) + Quanta{0, 0, 0, 1};
   }
 
@@ -106,10 +110,23 @@ private:
     return __builtin_convertvector(narrow_[node], Row) * unit;
   }
 
-  [[gnu::noinline]] void add_wide(std::size_t node, const Row& force)
+  [[gnu::noinline]] void add_checked(std::size_t node, const Row& force)
   {
+    VectorSum term;
+    term.add({force[0], force[1], force[2]});
+    Quanta& quanta = narrow_[node];
+    const ExactWide room = ExactWide{1} << 61, x = quanta[0] + term.x.raw(),
+                    y = quanta[1] + term.y.raw(), z = quanta[2] + term.z.raw();
+    if (std::max({x, y, z}) < room && std::min({x, y, z}) > -room) {
+      quanta[0] = static_cast<std::int64_t>(x);
+      quanta[1] = static_cast<std::int64_t>(y);
+      quanta[2] = static_cast<std::int64_t>(z);
+      return;
+    }
     VectorSum all = sum(node);
-    all.add({force[0], force[1], force[2]});
+    all.x += term.x;
+    all.y += term.y;
+    all.z += term.z;
     set(node, all);
   }
 

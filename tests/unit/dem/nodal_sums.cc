@@ -55,6 +55,20 @@ TEST_CASE("Many large terms at one node do not overflow 64 bits", "[unit][dem]")
   check_same(sums, exact);
 }
 
+TEST_CASE("A force of some newtons leaves the sums in 64 bits, some kilonewtons do not",
+          "[unit][dem]")
+{
+  std::vector<std::int64_t> values;
+  NodalSums sums(1);
+  for (int n = 0; n < 100; ++n) sums.add(0, Row{15.0, -3.0, 0.0, 0.0});
+  CHECK(sums.append_narrow(values, std::int64_t{1} << 61));
+  CHECK(sums.value(0) == Vec3(1500.0, -300.0, 0.0));
+  sums.add(0, Row{1000.0, 0.0, 0.0, 0.0});
+  values.clear();
+  CHECK_FALSE(sums.append_narrow(values, std::int64_t{1} << 61));
+  CHECK(sums.value(0) == Vec3(2500.0, -300.0, 0.0));
+}
+
 TEST_CASE("A nodal force that is not a number is refused", "[unit][dem]")
 {
   NodalSums sums(1);
