@@ -93,10 +93,7 @@ public:
         if (other < 0) t.begins_fan |= bit;
         if (other >= 0 && other < t.triangle &&
             listed_[uz(other)].candidate == candidate_) {
-          const auto& across = topo_.across[uz(other)];
-          const std::size_t e = across[0] == t.triangle   ? 0
-                                : across[1] == t.triangle ? 1
-                                                          : 2;
+          const std::size_t e = place_of(t.triangle, topo_.across[uz(other)]);
           t.edge[k] = near[listed_[uz(other)].number].edge[e];
         } else {
           t.edge[k] = static_cast<std::uint16_t>(n_edges++);

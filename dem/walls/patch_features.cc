@@ -59,8 +59,7 @@ bool is_in_front(const Wall& wall, const PatchFeature& nearest)
     const int node = topo.triangles[uz(t)][uz(nearest.which)];
     n.setZero();
     for (const int around : topo.around[uz(node)]) {
-      const Triangle& k = topo.triangles[uz(around)];
-      const std::size_t here = k[0] == node ? 0 : k[1] == node ? 1 : 2;
+      const std::size_t here = place_of(node, topo.triangles[uz(around)]);
       if (topo.across[uz(around)][here] < 0 || topo.across[uz(around)][(here + 2) % 3] < 0)
         return true;
       n += weighted_normal(wall, around, here);

@@ -85,8 +85,7 @@ WallTopology make_topology(const std::vector<Vec3>& x, std::vector<Triangle> tri
       const int node = topo.triangles[t][k];
       std::uint8_t fans = 0;
       for (const int around : topo.around[uz(node)]) {
-        const Triangle& other = topo.triangles[uz(around)];
-        const std::size_t here = other[0] == node ? 0 : other[1] == node ? 1 : 2;
+        const std::size_t here = place_of(node, topo.triangles[uz(around)]);
         if (topo.patch[uz(around)] == topo.patch[t] && topo.across[uz(around)][here] < 0)
           ++fans;
       }

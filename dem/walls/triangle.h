@@ -52,24 +52,6 @@ struct TriangleRegions {
   auto is_in_front() const { return dot(ac, cross(ab, ad)) > Real{}; }
 };
 
-/// Squared distance of c from the triangle [m^2].
-template <class Real>
-[[gnu::always_inline]] inline Real squared_distance(const TriangleRegions<Real>& r)
-{
-  const Triple<Real> n = cross(r.ab, r.ad), bc = r.ac - r.ab, dc = r.ac - r.ad,
-                     bd = r.ad - r.ab;
-  const Real height = dot(r.ac, n);
-  Real d2 = height * height * (1.0 / dot(n, n)); // n is not 0
-  // Of the line of an edge: |c|^2 less the square of its part along the edge.
-  const Real along_bd = r.d4 - r.d3;
-  d2 = select(r.at_edge_ab(), dot(r.ac, r.ac) - r.d1 * r.d1 / dot(r.ab, r.ab), d2);
-  d2 = select(r.at_edge_da(), dot(r.ac, r.ac) - r.d2 * r.d2 / dot(r.ad, r.ad), d2);
-  d2 = select(r.at_edge_bd(), dot(bc, bc) - along_bd * along_bd / dot(bd, bd), d2);
-  d2 = select(r.at_corner_a(), dot(r.ac, r.ac), d2);
-  d2 = select(r.at_corner_b(), dot(bc, bc), d2);
-  return select(r.at_corner_d(), dot(dc, dc), d2);
-}
-
 /// A point of a triangle.
 template <class Real>
 struct TrianglePoint {

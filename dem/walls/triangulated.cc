@@ -34,13 +34,6 @@ double power(const Wall& wall)
   return -wall.f.dot(wall.v);
 }
 
-Vec3 at(const std::vector<Vec3>& nodal, const WallTopology& topo, const Anchor& a)
-{
-  const Triangle& t = topo.triangles[uz(a.triangle)];
-  return a.weight[0] * nodal[uz(t[0])] + a.weight[1] * nodal[uz(t[1])] +
-         a.weight[2] * nodal[uz(t[2])];
-}
-
 WallSums sum_contact_forces(const Wall& wall)
 {
   WallSums sums;

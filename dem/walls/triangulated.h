@@ -23,6 +23,12 @@ inline std::size_t uz(int i)
   return static_cast<std::size_t>(i);
 }
 
+/// Which of three numbers n is: of the corners of a triangle, or of its neighbours. @pre it is one
+inline std::size_t place_of(int n, const std::array<int, 3>& among)
+{
+  return among[0] == n ? 0 : among[1] == n ? 1 : 2;
+}
+
 /// Edges and corners of a triangulation, and its smooth patches.
 ///
 /// Normals follow the right-hand rule and point to the particles. A fold of more than 30
@@ -188,6 +194,11 @@ void visit_sums(AnyWall& wall, Visit&& visit)
 }
 
 /// Position or velocity of an anchor, from those of the nodes.
-Vec3 at(const std::vector<Vec3>& nodal, const WallTopology& t, const Anchor& a);
+inline Vec3 at(const std::vector<Vec3>& nodal, const WallTopology& topo, const Anchor& a)
+{
+  const Triangle& t = topo.triangles[uz(a.triangle)];
+  return a.weight[0] * nodal[uz(t[0])] + a.weight[1] * nodal[uz(t[1])] +
+         a.weight[2] * nodal[uz(t[2])];
+}
 
 } // namespace mergel::dem

@@ -70,14 +70,6 @@ struct WallStep {
     wall.contact_forces.push_back({particle, vec3(F), vec3(x), vec3(v)});
   }
 
-  /// Velocity of the wall at an anchor [m/s].
-  Vec3 at(const Anchor& a) const
-  {
-    const Triangle& t = triangle(a.triangle);
-    return a.weight[0] * wall.v[uz(t[0])] + a.weight[1] * wall.v[uz(t[1])] +
-           a.weight[2] * wall.v[uz(t[2])];
-  }
-
   /// Where a force acts on a particle, its opposite acts on the wall.
   /// @param v of the wall there
   void add_to_wall(Index particle, const Vec3& force, const PatchFeature& where,
@@ -165,7 +157,7 @@ private:
     if (found.size() > 1 || found.front().sign != 1.0)
       return add_several(contact, particle);
     const PatchFeature& only = found.front(); // the same bits as in a batch
-    const Vec3 v = step_.at(only.at);
+    const Vec3 v = at(wall.v, wall.topology, only.at);
     const Vec3 f = add_wall_contact(
         law_, {only.n, only.distance - particle.R, only.point, v}, step_.dt, particle,
         step_.p.load[contact.particle], contact, step_.losses);
@@ -185,7 +177,7 @@ private:
     acting_.clear();
     for (const PatchFeature& f : features_.found()) {
       const double f_n = f.sign * normal_force(law_, sides, f.overlap);
-      acting_.push_back({f_n, step_.at(f.at)});
+      acting_.push_back({f_n, at(step_.wall.v, step_.wall.topology, f.at)});
       if (&f == &nearest) v_nearest = acting_.back().v;
       pressure += f_n * f.n;
       energy += f.sign * contact_energy(law_, sides, f.overlap, 0.0);
