@@ -18,6 +18,8 @@ mkdir -p "$2"
 cd "$2"
 shift 2
 [ $# -gt 0 ] || set -- small
+# As root Open MPI asks for these two.
+[ "$(id -u)" -ne 0 ] || export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
 # run JOB NAME CASE SETTING...: run it, or go on with it where it stopped
 run() {
