@@ -84,6 +84,7 @@ void declare_motion(CaseFile& file, CoupledCase& c)
 
 void declare(CaseFile& file, CoupledCase& c)
 {
+  c.is_side_meshed = true;
   declare(file, static_cast<SpecimenKeys&>(c));
   declare(file, c.bond);
   declare(file, c.contact);
@@ -96,9 +97,10 @@ void complete(CaseFile& file, CoupledCase& c)
   dem::SpecimenSpec& s = c.specimen;
   fem::FarFieldSpec& f = c.far_field;
   c.material = {c.bond.chosen(), c.contact.chosen()};
-  if (c.shape != SpecimenKeys::Shape::half_cylinder)
+  if (c.shape == SpecimenKeys::Shape::periodic_box)
     file.refuse("Specimen", "shape",
-                "the far field takes a half cylinder only: use `half cylinder`");
+                "the far field takes a cylinder or half of one: use `half cylinder`, or "
+                "`cylinder` for the full model");
   const auto mm = [](double x) { return dem::shortest(1e3 * x) + " mm"; };
   if (c.diameter >= f.chamber_diameter)
     file.refuse(
@@ -115,6 +117,7 @@ void complete(CaseFile& file, CoupledCase& c)
   if (f.cell_size > 0.5 * c.diameter)
     file.refuse("Far field", "cell size", "must be at most half of `Specimen/diameter`");
 
+  f.extent = c.is_half() ? fem::Extent::half : fem::Extent::full;
   f.region_diameter = c.diameter;
   f.region_height = c.height;
   f.rho = s.rho * (1.0 - s.porosity);

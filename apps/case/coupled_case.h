@@ -18,7 +18,8 @@ enum class InterfaceBond {
   frictional ///< contact only
 };
 
-/// The DEM region is a half cylinder inside the far field (coupling/README.md, Far field).
+/// The DEM region is a half cylinder inside a half of the far field, or a cylinder inside all
+/// of it (coupling/README.md, Far field).
 struct CoupledCase : SpecimenKeys {
   BondKeys bond;
   ContactKeys contact;
@@ -42,6 +43,8 @@ struct CoupledCase : SpecimenKeys {
   double inertia_factor = 1.0;
   dem::MassScalingSpec mass_scaling;
   double unbalanced_tolerance = 1e-4; ///< unbalanced-force ratio of an equilibrium [-]
+
+  bool is_half() const { return shape == Shape::half_cylinder; }
 };
 
 /// Declare the keys of `Specimen`, `Bond`, `Contact`, `Far field` and `Motion`.

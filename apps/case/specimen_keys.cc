@@ -37,7 +37,7 @@ void declare_shape(CaseFile& file, SpecimenKeys& k)
                   "mm");
     file.quantity("height", k.height, "m", positive, "Height of the DEM region.", "mm");
   }
-  {
+  if (!k.is_side_meshed) {
     const auto only = file.only_if("shape", {cylinder});
     file.integer("faces around the side", k.faces, at_least(3.0),
                  "Number of faces of the prism inscribed in the cylinder.");
@@ -296,12 +296,11 @@ const char* finest_key(const SpecimenKeys& k)
 void complete_granular(const CaseFile& file, SpecimenKeys& k)
 {
   k.specimen.g_b = 0.0; // the recipe does not depend on it
-  if (k.shape == Shape::half_cylinder)
-    file.refuse(
-        "Specimen", "coordination",
-        "a half cylinder, as of a pile, needs bonds: nothing else holds its particles "
-        "but their weight, some pascals. Particles without bonds are for `periodic "
-        "box` and `cylinder`");
+  if (k.is_side_meshed)
+    file.refuse("Specimen", "coordination",
+                "the specimen of a pile needs bonds: nothing else holds its particles but "
+                "their weight, some pascals. Particles without bonds are for element and "
+                "triaxial tests");
   if (k.specimen.compaction == dem::Compaction::unjammed)
     file.refuse("Specimen", "coordination",
                 "without bonds the particles hold together only under a pressure: set "
@@ -345,10 +344,10 @@ void complete(CaseFile& file, SpecimenKeys& k, const dem::ContactLaw& contact)
                 "a periodic box has no axis: use `upscaling = uniform`");
   else if (s.scale.r_outer <= s.scale.r_inner)
     file.refuse("Specimen", "outer radius", "must be beyond `inner radius`");
-  if (k.shape == Shape::half_cylinder && s.compaction != dem::Compaction::unjammed)
-    file.refuse(
-        "Specimen", "packing",
-        "a half cylinder comes to rest inside the walls of its run: use `unjammed`");
+  if (k.is_side_meshed && s.compaction != dem::Compaction::unjammed)
+    file.refuse("Specimen", "packing",
+                "the specimen of a pile comes to rest inside the walls of its run: use "
+                "`unjammed`");
   if (k.is_granular()) complete_granular(file, k);
   s.region = region_of(k);
 

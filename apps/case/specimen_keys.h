@@ -20,8 +20,9 @@ struct SpecimenKeys {
   enum class Upscaling { graded, uniform };
 
   Shape shape = Shape::half_cylinder;
-  double diameter = unset, height = unset;      ///< of a cylinder or half cylinder [m]
-  int faces = 48;                               ///< plane faces of the side of a cylinder
+  double diameter = unset, height = unset; ///< of a cylinder or half cylinder [m]
+  int faces = 48;                          ///< plane faces of the side of a cylinder
+  bool is_side_meshed = false; ///< they are those of a far field: there is no key for them
   dem::Vec3 edges = dem::Vec3::Constant(unset); ///< of a periodic box [m]
 
   Sizes sizes = Sizes::uniform;
@@ -48,8 +49,8 @@ struct SpecimenKeys {
 void declare(CaseFile& file, SpecimenKeys& k);
 
 /// Set k.specimen from the keys and this far-field contact, and check it. The side of a
-/// half cylinder gets two faces here, enough for the checks; make_far_field() sets their
-/// number.
+/// half cylinder gets two faces here, enough for the checks; make_far_field() sets the number
+/// of a meshed side.
 /// @throws InputError naming file, line and key
 void complete(CaseFile& file, SpecimenKeys& k, const dem::ContactLaw& contact);
 

@@ -11,11 +11,15 @@ namespace mergel::apps {
 fem::FarField make_far_field(CoupledCase& c, MPI_Comm comm)
 {
   fem::FarField far_field(c.far_field, comm);
-  // The corners of the prism are the interface nodes of the surface.
+  // The corners of the prism are the interface nodes of the surface; those of a half do not
+  // close a ring.
   int corners = 0;
   for (const Eigen::Vector3d& x : far_field.interface().x)
     if (std::abs(x.z()) < fem::coincidence * c.height) ++corners;
-  std::get<dem::HalfCylinder>(c.specimen.region).segments = corners - 1;
+  if (auto* half = std::get_if<dem::HalfCylinder>(&c.specimen.region))
+    half->segments = corners - 1;
+  else
+    std::get<dem::Cylinder>(c.specimen.region).segments = corners;
   return far_field;
 }
 
@@ -28,8 +32,9 @@ coupling::CoupledSpec coupled_spec(const CoupledCase& c)
   spec.skin = dem::skin_under_penetration * c.specimen.sizes.smallest();
   spec.step = c.step;
   spec.mass_scaling = c.mass_scaling;
-  spec.symmetry = c.symmetry == Symmetry::mirror ? coupling::SymmetryPlane::bonded
-                                                 : coupling::SymmetryPlane::contact;
+  if (c.is_half())
+    spec.symmetry = c.symmetry == Symmetry::mirror ? coupling::SymmetryPlane::bonded
+                                                   : coupling::SymmetryPlane::contact;
   spec.strengths = c.strengths;
   spec.largest_subcycle = static_cast<std::size_t>(c.largest_subcycle);
   return spec;

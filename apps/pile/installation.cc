@@ -128,14 +128,14 @@ std::string Installation::now() const
 
 PileRecord Installation::new_record(const coupling::EnergyBalances& energy_balances)
 {
-  const double half_to_full = 2.0;
+  const double to_full = case_.assembly.is_half() ? 2.0 : 1.0;
   const double area = 0.25 * dem::pi * case_.diameter * case_.diameter;
   PileRecord r;
   r.time = time_;
   r.tip_depth = travelled();
   r.depth = r.tip_depth - case_.tip_height();
-  r.F_tip = half_to_full * force_.tip / static_cast<double>(force_.n);
-  r.F_shaft = half_to_full * force_.shaft / static_cast<double>(force_.n);
+  r.F_tip = to_full * force_.tip / static_cast<double>(force_.n);
+  r.F_shaft = to_full * force_.shaft / static_cast<double>(force_.n);
   r.q_c = r.F_tip / area;
   breakage_.collect(case_, coupled_.assembly);
   r.broken = coupled_.assembly.comm.global_sum(

@@ -35,6 +35,18 @@ const std::vector<std::string> columns{
     "damping of the half model [J]",
 };
 
+/// Energies are those of what is modelled.
+std::vector<std::string> columns_of(const PileCase& c)
+{
+  std::vector<std::string> all = columns;
+  const std::string half = "half model";
+  if (!c.assembly.is_half())
+    for (std::string& name : all)
+      if (const auto at = name.find(half); at != std::string::npos)
+        name.replace(at, half.size(), "full model");
+  return all;
+}
+
 const std::vector<Frames::Kind> kinds{
     {"particles", "vtp"}, {"bonds", "vtp"}, {"pile", "vtp"}, {"far_field", "vtu"}};
 
@@ -47,15 +59,15 @@ dem::HistoryMark mark_in(const dem::State& state)
 } // namespace
 
 PileOutput::PileOutput(const std::filesystem::path& folder, const PileCase& c)
-    : diameter_(c.diameter), history_(folder / "history.csv", columns),
+    : diameter_(c.diameter), history_(folder / "history.csv", columns_of(c)),
       frames_(folder, kinds)
 {
 }
 
 PileOutput::PileOutput(const std::filesystem::path& folder, const PileCase& c,
                        const std::filesystem::path& earlier, const dem::State& state)
-    : diameter_(c.diameter),
-      history_(folder / "history.csv", columns, earlier / "history.csv", mark_in(state)),
+    : diameter_(c.diameter), history_(folder / "history.csv", columns_of(c),
+                                      earlier / "history.csv", mark_in(state)),
       frames_(folder, kinds, earlier, state)
 {
   if (!std::filesystem::equivalent(folder, earlier) &&
@@ -109,8 +121,10 @@ void PileOutput::frame(double time, const dem::Assembly& assembly,
   dem::write_particles(frames_.file(0), assembly, coupled.x_0);
   dem::write_bonds(frames_.file(1), assembly);
   const dem::RigidWall& pile = assembly.rigid_walls.front();
-  dem::write_revolution(frames_.file(2), std::get<dem::Revolution>(pile.shape), pile.x,
-                        2.0 * diameter_);
+  const auto write_pile =
+      assembly.mirrors.empty() ? dem::write_revolution : dem::write_half_revolution;
+  write_pile(frames_.file(2), std::get<dem::Revolution>(pile.shape), pile.x,
+             2.0 * diameter_);
   dem::replace_file(frames_.file(3), [&](const std::filesystem::path& path) {
     far_field_of(coupled).write_vtu(path);
   });

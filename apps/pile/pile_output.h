@@ -8,7 +8,7 @@
 
 namespace mergel::apps {
 
-/// One line of history.csv. Forces are those of the full pile: twice those of the half
+/// One line of history.csv. Forces are those of the full pile: twice those of a half
 /// model.
 struct PileRecord {
   double time = 0.0;       ///< since the pile began to move [s]
@@ -19,11 +19,11 @@ struct PileRecord {
   double q_c = 0.0;        ///< F_tip / (pi D^2/4) [Pa]
   std::size_t broken = 0;  ///< bonds so far
   double unbalanced = 0.0; ///< [-]
-  double kinetic = 0.0;    ///< of the particles, half model [J]
+  double kinetic = 0.0;    ///< of the particles in the model [J]
   coupling::InterfaceBalance interface;
   double energy_error = 0.0;                 ///< unexplained energy over the input [-]
   double time_step = 0.0, stable_step = 0.0; ///< [s]
-  /// Of the half model; pile work, slip, damping and bond losses since the pile began to
+  /// Of the half or full model; pile work, slip, damping and bond losses since the pile began to
   /// move.
   dem::EnergyBalance balance;
 };

@@ -11,7 +11,7 @@ CaseJob job_of_case(const CaseScan& scan, const std::vector<std::string>& set)
     sections.try_emplace(entries.back().section, 0);
   }
   const auto has = [&](const char* section) { return sections.contains(section); };
-  std::string shape = has("Pile") ? "half cylinder" : "";
+  std::string shape;
   bool has_diameter = false, has_velocity = false;
   for (const CaseEntry& e : entries) {
     if (e.section == "Loading" && e.key == "velocity") has_velocity = true;
@@ -20,7 +20,7 @@ CaseJob job_of_case(const CaseScan& scan, const std::vector<std::string>& set)
     if (e.key == "diameter") has_diameter = true;
   }
 
-  if (shape == "half cylinder") return CaseJob::pile;
+  if (has("Pile") || shape == "half cylinder") return CaseJob::pile;
   if (has("Plates") || has_velocity) return CaseJob::brazilian;
   if (has("Membrane") || has("Platens")) return CaseJob::triaxial;
   if (!has("Loading") || has("Particles")) return CaseJob::sample;

@@ -104,39 +104,68 @@ void write_bonds(const std::filesystem::path& file, const Assembly& assembly)
   write_lines(file, x, lines, {N, V, M, T, D});
 }
 
+namespace {
+
+/// Points and triangles of the part of a body of revolution between the angles 0 and n_around
+/// facets.
+struct RevolutionSurface {
+  std::vector<Vec3>
+      points; ///< the tip, n of each meridian from the tip up, the centre of the top
+  std::vector<std::array<Index, 3>> triangles;
+  Index n = 0; ///< points of a meridian
+
+  Index at(Index meridian, Index ring) const { return 1 + n * meridian + ring; }
+};
+
+constexpr Index n_facets = 48; // over the half circle, of 3.75 degrees
+
+RevolutionSurface revolution_surface(const Revolution& shape, const Vec3& x, double z_top,
+                                     Index n_around)
+{
+  RevolutionSurface s;
+  std::vector<Revolution::Corner> rings(shape.profile.begin() + 1, shape.profile.end());
+  rings.push_back({shape.R(), std::max(z_top - x.z(), shape.tip_height())});
+  s.n = static_cast<Index>(rings.size());
+  s.points.push_back(x);
+  for (Index k = 0; k <= n_around; ++k) {
+    const double phi = pi * k / n_facets;
+    for (const auto& ring : rings)
+      s.points.push_back(x + Vec3(ring.r * std::cos(phi), ring.r * std::sin(phi), ring.z));
+  }
+  const auto top = static_cast<Index>(s.points.size());
+  s.points.push_back(x + Vec3(0.0, 0.0, rings.back().z));
+
+  for (Index k = 0; k < n_around; ++k) {
+    s.triangles.push_back({0, s.at(k, 0), s.at(k + 1, 0)});
+    for (Index j = 0; j + 1 < s.n; ++j) {
+      s.triangles.push_back({s.at(k, j), s.at(k + 1, j + 1), s.at(k + 1, j)});
+      s.triangles.push_back({s.at(k, j), s.at(k, j + 1), s.at(k + 1, j + 1)});
+    }
+    s.triangles.push_back({s.at(k, s.n - 1), top, s.at(k + 1, s.n - 1)});
+  }
+  return s;
+}
+
+} // namespace
+
+void write_half_revolution(const std::filesystem::path& file, const Revolution& shape,
+                           const Vec3& x, double z_top)
+{
+  RevolutionSurface s = revolution_surface(shape, x, z_top, n_facets);
+  // The cut face.
+  s.triangles.push_back({0, s.at(n_facets, 0), s.at(0, 0)});
+  for (Index j = 0; j + 1 < s.n; ++j) {
+    s.triangles.push_back({s.at(0, j), s.at(n_facets, j), s.at(n_facets, j + 1)});
+    s.triangles.push_back({s.at(0, j), s.at(n_facets, j + 1), s.at(0, j + 1)});
+  }
+  write_surface(file, s.points, s.triangles, {});
+}
+
 void write_revolution(const std::filesystem::path& file, const Revolution& shape,
                       const Vec3& x, double z_top)
 {
-  constexpr Index n_around = 48; // facets of 3.75 degrees over the half circle
-  std::vector<Revolution::Corner> rings(shape.profile.begin() + 1, shape.profile.end());
-  rings.push_back({shape.R(), std::max(z_top - x.z(), shape.tip_height())});
-  const auto n = static_cast<Index>(rings.size());
-  std::vector<Vec3> points{x};
-  for (Index k = 0; k <= n_around; ++k) {
-    const double phi = pi * k / n_around;
-    for (const auto& ring : rings)
-      points.push_back(x + Vec3(ring.r * std::cos(phi), ring.r * std::sin(phi), ring.z));
-  }
-  const auto top = static_cast<Index>(points.size());
-  points.push_back(x + Vec3(0.0, 0.0, rings.back().z));
-
-  std::vector<std::array<Index, 3>> triangles;
-  const auto at = [n](Index k, Index ring) { return 1 + n * k + ring; };
-  for (Index k = 0; k < n_around; ++k) {
-    triangles.push_back({0, at(k, 0), at(k + 1, 0)});
-    for (Index j = 0; j + 1 < n; ++j) {
-      triangles.push_back({at(k, j), at(k + 1, j + 1), at(k + 1, j)});
-      triangles.push_back({at(k, j), at(k, j + 1), at(k + 1, j + 1)});
-    }
-    triangles.push_back({at(k, n - 1), top, at(k + 1, n - 1)});
-  }
-  // The cut face.
-  triangles.push_back({0, at(n_around, 0), at(0, 0)});
-  for (Index j = 0; j + 1 < n; ++j) {
-    triangles.push_back({at(0, j), at(n_around, j), at(n_around, j + 1)});
-    triangles.push_back({at(0, j), at(n_around, j + 1), at(0, j + 1)});
-  }
-  write_surface(file, points, triangles, {});
+  const RevolutionSurface s = revolution_surface(shape, x, z_top, 2 * n_facets);
+  write_surface(file, s.points, s.triangles, {});
 }
 
 } // namespace mergel::dem

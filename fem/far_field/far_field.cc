@@ -20,8 +20,13 @@ namespace {
 
 FarFieldGeometry geometry(const FarFieldSpec& s)
 {
-  return {s.chamber_diameter / 2.0, s.chamber_height, s.region_diameter / 2.0,
-          s.region_height,          s.cell_size,      s.growth};
+  return {s.chamber_diameter / 2.0,
+          s.chamber_height,
+          s.region_diameter / 2.0,
+          s.region_height,
+          s.cell_size,
+          s.growth,
+          s.extent};
 }
 
 SolidProperties properties(const FarFieldSpec& s)
@@ -38,10 +43,11 @@ SolidProperties properties(const FarFieldSpec& s)
 
 Supports supports(const FarFieldSpec& s)
 {
-  return {{boundary::bottom, Support::fixed},
-          {boundary::symmetry, Support::roller},
-          {boundary::outer,
-           s.outer == FarFieldSpec::Outer::fixed ? Support::fixed : Support::roller}};
+  Supports all{{boundary::bottom, Support::fixed},
+               {boundary::outer,
+                s.outer == FarFieldSpec::Outer::fixed ? Support::fixed : Support::roller}};
+  if (s.extent == Extent::half) all[boundary::symmetry] = Support::roller;
+  return all;
 }
 
 /// A quadrilateral of the interface by its interface nodes, counter-clockwise as seen from
@@ -50,7 +56,7 @@ using Quad = std::array<int, 4>;
 
 /// Which diagonal splits the quadrilateral: true for corners 0 and 2. It is the shorter
 /// one. If they are equal, it is the one through the lowest corner nearest to x = 0, then
-/// to y = 0, so that mirror images in x are split in mirror image.
+/// to y = 0, so that mirror images in x or y are split in mirror image.
 bool splits_from_first(const Quad& quad, const std::vector<Vec3>& x)
 {
   const auto corner = [&](int k) -> const Vec3& {
@@ -63,7 +69,7 @@ bool splits_from_first(const Quad& quad, const std::vector<Vec3>& x)
   const auto key = [&](int k) {
     const Vec3& p = corner(k);
     return std::tuple(std::llround(p.z() / close), std::llround(std::abs(p.x()) / close),
-                      std::llround(p.y() / close));
+                      std::llround(std::abs(p.y()) / close));
   };
   int first = 0;
   for (int k = 1; k < 4; ++k)
@@ -150,7 +156,7 @@ void FarFieldSpec::check() const
   require(damping >= 0.0 && damping < 1.0, "damping", damping,
           "must satisfy 0 <= damping < 1");
   constexpr double max_cells = 2e6;
-  const double n = layers(geometry(*this)).n_cells();
+  const double n = layers(geometry(*this)).n_cells(extent);
   require(n <= max_cells, "number of cells for this cell size", n,
           "must be at most 2e6; is the cell size in the right unit?");
 }
@@ -349,8 +355,8 @@ std::string FarField::summary() const
   std::ostringstream s;
   s << "far field: " << n_cells() << " cells, " << n_nodes() << " nodes, "
     << parts_->interface.triangles.size() << " interface triangles (" << n.n_around
-    << " around, " << n.n_ring << " + " << n.n_radial << " rings, " << n.n_upper << " + "
-    << n.n_lower << " layers)";
+    << " around 180 degrees, " << n.n_ring << " + " << n.n_radial << " rings, " << n.n_upper
+    << " + " << n.n_lower << " layers)";
   return s.str();
 }
 

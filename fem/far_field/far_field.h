@@ -17,12 +17,18 @@
 
 namespace mergel::fem {
 
-/// Half cylinder of rock around a DEM region that is itself a half cylinder with its top at
-/// the ground surface. Axis z up, surface z = 0, cut plane y = 0, rock at y >= 0. What has
-/// no default must be set.
+/// How much of a cylinder about the axis z a far field is.
+enum class Extent {
+  half, ///< y >= 0, cut at the symmetry plane y = 0
+  full
+};
+
+/// Cylinder of rock, or half of one, around a DEM region of the same shape with its top at
+/// the ground surface. Axis z up, surface z = 0. What has no default must be set.
 struct FarFieldSpec {
   static constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
+  Extent extent = Extent::half;
   double chamber_diameter = unset, chamber_height = unset; ///< [m]
   double region_diameter = unset, region_height = unset;   ///< [m], less than the chamber's
   double cell_size = unset; ///< edge of the cells at the interface [m]
@@ -45,7 +51,7 @@ struct FarFieldSpec {
 };
 
 /// The interface to the DEM region as triangles: an open surface whose rim lies in z = 0
-/// and y = 0.
+/// and, of a half model, in y = 0.
 struct InterfaceMesh {
   std::vector<Eigen::Vector3d> x; ///< reference positions of its nodes [m]
   /// Indices into x; normals (right-hand rule) point into the DEM region.
@@ -54,8 +60,8 @@ struct InterfaceMesh {
 };
 
 /// Linear elastic, small strain; geostatic initial stress sigma_v = rho g z, sigma_h = K0
-/// sigma_v (tension positive); base fixed, cut plane and (by default) chamber wall on
-/// rollers, top free. Every rank holds the complete far field and gets the same bits; the
+/// sigma_v (tension positive); base fixed, cut plane of a half model and (by default) chamber
+/// wall on rollers, top free. Every rank holds the complete far field and gets the same bits; the
 /// product with the stiffness, most of the cost of a step, is distributed over the ranks.
 /// Needs a fem::Runtime.
 class FarField {
@@ -122,7 +128,7 @@ public:
 
   std::size_t n_cells() const;
   std::size_t n_nodes() const;
-  double mass() const;    ///< of the half model's far field [kg]
+  double mass() const;    ///< of the modelled half or whole [kg]
   double damping() const; ///< local non-viscous damping [-]
 
   /// One sentence with counts and sizes, for the log.

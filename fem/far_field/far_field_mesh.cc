@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace mergel::fem {
@@ -128,6 +129,25 @@ Plan make_plan(const FarFieldGeometry& g, const FarFieldLayers& n)
   return plan;
 }
 
+/// The plan and its mirror image behind y = 0, where both have the same nodes.
+Plan with_mirror_image(Plan plan)
+{
+  const std::size_t n = plan.x.size(), n_quads = plan.quads.size();
+  std::vector<int> image(n);
+  for (std::size_t a = 0; a < n; ++a) {
+    const Point2 x = plan.x[a];
+    image[a] = static_cast<int>(x.y() == 0.0 ? a : plan.x.size());
+    if (x.y() != 0.0) plan.x.emplace_back(x.x(), -x.y());
+  }
+  for (std::size_t q = 0; q < n_quads; ++q) {
+    Plan::Quad mirrored = plan.quads[q];
+    std::reverse(mirrored.node.begin(), mirrored.node.end()); // counter-clockwise again
+    for (int& a : mirrored.node) a = image[static_cast<std::size_t>(a)];
+    plan.quads.push_back(mirrored);
+  }
+  return plan;
+}
+
 /// Heights of the node layers, from z = 0 down to -H_c.
 std::vector<double> heights(const FarFieldGeometry& g, const FarFieldLayers& n)
 {
@@ -172,11 +192,12 @@ void set_boundary_ids(const FarFieldGeometry& g, dealii::Triangulation<3>& mesh)
 
 } // namespace
 
-double FarFieldLayers::n_cells() const
+double FarFieldLayers::n_cells(Extent extent) const
 {
   const double around = n_around;
   const double core = around / 2.0 * (around / 4.0) + around * n_ring;
-  return around * n_radial * (n_upper + n_lower) + core * n_lower;
+  const double of_half = around * n_radial * (n_upper + n_lower) + core * n_lower;
+  return extent == Extent::full ? 2.0 * of_half : of_half;
 }
 
 FarFieldLayers layers(const FarFieldGeometry& g)
@@ -198,7 +219,8 @@ FarFieldLayers layers(const FarFieldGeometry& g)
 void make_far_field_mesh(const FarFieldGeometry& g, const FarFieldLayers& n,
                          dealii::Triangulation<3>& mesh)
 {
-  const Plan plan = make_plan(g, n);
+  Plan plan = make_plan(g, n);
+  if (g.extent == Extent::full) plan = with_mirror_image(std::move(plan));
   const std::vector<double> z = heights(g, n);
 
   // A node of the plan has vertices in all layers; inside r = R_d only below the region.

@@ -200,9 +200,13 @@ refuse "a cell pressure without a membrane" '.*triaxial_small\.prm:[0-9]+: Loadi
   sample "$root/apps/cases/triaxial_small.prm" --output out --set "Membrane/membrane=false"
 refuse "a specimen of two particles" '.*bond_fig5a\.prm:[0-9]+: unknown section "Particles".*' \
   sample "$root/apps/cases/bond_fig5a.prm" --output out
+edited case.prm '/set symmetry/d;/set diameter .*10 mm/d;/set height/d'
+refuse "a pile in a periodic box" '--set Specimen/shape = periodic box: .*half cylinder.*' \
+  pile case.prm --output out --set "Specimen/shape=periodic box" --set "Specimen/edge x=5 mm" \
+  --set "Specimen/edge y=5 mm" --set "Specimen/edge z=5 mm"
 edited case.prm '/set symmetry/d'
-refuse "a pile in a whole cylinder" '--set Specimen/shape = cylinder: .*half cylinder.*' \
-  pile case.prm --output out --set "Specimen/shape=cylinder"
+refuse "faces of a full model" '--set Specimen/faces around the side=12: .*' \
+  pile case.prm --output out --set "Specimen/shape=cylinder" --set "Specimen/faces around the side=12"
 refuse_set "a specimen of a pile under pressure" "${place}Specimen/packing = confined: .*use .unjammed." \
   "Specimen/packing=confined" "Specimen/target pressure=5 kPa"
 

@@ -81,8 +81,8 @@ refused "a pressure that nobody knows" 'Specimen/packing = expanded: .*set `conf
 refused "a membrane that bursts at once" "Membrane/Young's modulus = 0.01 MPa: .* would burst" triaxial "$sand" "Membrane/Young's modulus=0.01 MPa"
 refused "strengths of bonds" 'Strength variability/distribution = Weibull: there are no bonds' triaxial "$sand" \
   "Strength variability/distribution=Weibull" "Strength variability/coefficient of variation=0.3"
-refused "a pile" 'Specimen/coordination = 0: a half cylinder, as of a pile, needs bonds' pile "$case_file" "Specimen/coordination=0"
-refused "the specimen of a pile" 'Specimen/coordination = 0: a half cylinder, as of a pile, needs bonds' sample "$case_file" "Specimen/coordination=0"
+refused "a pile" 'Specimen/coordination = 0: the specimen of a pile needs bonds' pile "$case_file" "Specimen/coordination=0"
+refused "the specimen of a pile" 'Specimen/coordination = 0: the specimen of a pile needs bonds' sample "$case_file" "Specimen/coordination=0"
 # With bonds their keys must be given.
 refused "no section Bond" 'Bond/effective modulus: must be given' triaxial "$sand" "Specimen/coordination=5" "Specimen/bond gap=0.1 mm"
 refused "no bond gap" 'Specimen/bond gap: must be given' triaxial "$sand" "Specimen/coordination=5"

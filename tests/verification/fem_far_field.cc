@@ -94,6 +94,42 @@ TEST_CASE(
   CHECK(e.damping > 0.0);
 }
 
+TEST_CASE("A symmetric load gives a whole far field the displacements of the half",
+          "[verification][fem]")
+{
+  FarFieldSpec spec = small_chamber();
+  const auto loaded = [&](Extent extent) {
+    spec.extent = extent;
+    FarField field(spec);
+    const auto& x = field.interface().x;
+    std::vector<Vec3> f = field.initial_interface_forces();
+    // Outwards, 1 N in all at y > 0; the half has half of the load at its cut.
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const bool is_cut = x[k].y() == 0.0;
+      const double share = extent == Extent::half && is_cut ? 0.5 : 1.0;
+      f[k] += share * Vec3(x[k].x(), is_cut ? 0.0 : x[k].y(), 0.0) / spec.region_diameter;
+    }
+    field.solve_static(f);
+    std::map<std::array<double, 3>, Vec3> u;
+    std::vector<Vec3> values;
+    field.interface_displacement(values);
+    for (std::size_t k = 0; k < x.size(); ++k)
+      u[{x[k].x() + 0.0, x[k].y() + 0.0, x[k].z()}] = values[k];
+    return u;
+  };
+  const auto half = loaded(Extent::half), full = loaded(Extent::full);
+  double largest = 0.0, difference = 0.0;
+  for (const auto& [x, u] : half) {
+    largest = std::max(largest, u.norm());
+    const auto image = full.find({x[0], -x[1] + 0.0, x[2]});
+    REQUIRE(image != full.end());
+    difference = std::max({difference, (full.at(x) - u).norm(),
+                           (image->second - Vec3(u.x(), -u.y(), u.z())).norm()});
+  }
+  CHECK(largest > 0.0);
+  CHECK(difference < 1e-9 * largest); // both solved to a residual of 1e-12
+}
+
 TEST_CASE("The multigrid solution is the direct one", "[verification][fem]")
 {
   const FarFieldGeometry g{12.5e-3, 40e-3, 5e-3, 12e-3, 2e-3, 1.4};

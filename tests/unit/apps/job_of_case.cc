@@ -58,5 +58,5 @@ TEST_CASE("The job of a case follows from sections, shape and keys", "[unit][app
         CaseJob::brazilian);
   CHECK(job(specimen("diameter = 5 mm") + loading, {"Loading/velocity=1 mm/s"}) ==
         CaseJob::brazilian);
-  CHECK(job("subsection Pile\nend\n", {"Specimen/shape=cylinder"}) == CaseJob::sample);
+  CHECK(job("subsection Pile\nend\n", {"Specimen/shape=cylinder"}) == CaseJob::pile);
 }

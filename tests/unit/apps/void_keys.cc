@@ -116,8 +116,7 @@ const std::vector<Mode> modes{
      {},
      "shape",
      "half cylinder",
-     {"Specimen/edge x=5 mm", "Specimen/edge y=5 mm", "Specimen/edge z=5 mm",
-      "Specimen/faces around the side=12"}},
+     {"Specimen/edge x=5 mm", "Specimen/edge y=5 mm", "Specimen/edge z=5 mm"}},
     // element
     {run_element,
      "element_small.prm",
