@@ -72,8 +72,9 @@ void add_wall(Springs& s, const Assembly& a, const Closing& closing, const Rigid
     const ParticleState& b = a.particles.state[c.particle];
     const SurfacePoint at = with_particle_id(a.particles.id[c.particle],
                                              [&] { return closest_point(wall, b); });
-    const double overlap = closing.overlap(activation_gap(wall.material) * b.S - at.gap,
-                                           (b.v - wall.v).dot(at.n), b.S);
+    const double overlap =
+        closing.overlap(activation_gap(wall.material) * b.S - at.gap,
+                        (b.v - wall.velocity_at(at.point)).dot(at.n), b.S);
     if (!(overlap > 0.0)) continue;
     const auto k = contact_stiffness(wall.material, sides_at_wall(b.R), overlap);
     s.walls.push_back({c.particle, b.R + at.gap, at.n, k.k_n, k.k_s});

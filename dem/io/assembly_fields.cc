@@ -119,9 +119,13 @@ struct RevolutionSurface {
 
 constexpr Index n_facets = 48; // over the half circle, of 3.75 degrees
 
-RevolutionSurface revolution_surface(const Revolution& shape, const Vec3& x, double z_top,
+RevolutionSurface revolution_surface(const Revolution& shape, const Vec3& x,
+                                     const Eigen::Quaterniond& rotation, double z_top,
                                      Index n_around)
 {
+  const auto placed = [&, Q = rotation.toRotationMatrix()](double x_, double y, double z) {
+    return Vec3(x + Q * Vec3(x_, y, z));
+  };
   RevolutionSurface s;
   std::vector<Revolution::Corner> rings(shape.profile.begin() + 1, shape.profile.end());
   rings.push_back({shape.R(), std::max(z_top - x.z(), shape.tip_height())});
@@ -130,10 +134,10 @@ RevolutionSurface revolution_surface(const Revolution& shape, const Vec3& x, dou
   for (Index k = 0; k <= n_around; ++k) {
     const double phi = pi * k / n_facets;
     for (const auto& ring : rings)
-      s.points.push_back(x + Vec3(ring.r * std::cos(phi), ring.r * std::sin(phi), ring.z));
+      s.points.push_back(placed(ring.r * std::cos(phi), ring.r * std::sin(phi), ring.z));
   }
   const auto top = static_cast<Index>(s.points.size());
-  s.points.push_back(x + Vec3(0.0, 0.0, rings.back().z));
+  s.points.push_back(placed(0.0, 0.0, rings.back().z));
 
   for (Index k = 0; k < n_around; ++k) {
     s.triangles.push_back({0, s.at(k, 0), s.at(k + 1, 0)});
@@ -149,9 +153,9 @@ RevolutionSurface revolution_surface(const Revolution& shape, const Vec3& x, dou
 } // namespace
 
 void write_half_revolution(const std::filesystem::path& file, const Revolution& shape,
-                           const Vec3& x, double z_top)
+                           const Vec3& x, const Eigen::Quaterniond& rotation, double z_top)
 {
-  RevolutionSurface s = revolution_surface(shape, x, z_top, n_facets);
+  RevolutionSurface s = revolution_surface(shape, x, rotation, z_top, n_facets);
   // The cut face.
   s.triangles.push_back({0, s.at(n_facets, 0), s.at(0, 0)});
   for (Index j = 0; j + 1 < s.n; ++j) {
@@ -162,9 +166,9 @@ void write_half_revolution(const std::filesystem::path& file, const Revolution& 
 }
 
 void write_revolution(const std::filesystem::path& file, const Revolution& shape,
-                      const Vec3& x, double z_top)
+                      const Vec3& x, const Eigen::Quaterniond& rotation, double z_top)
 {
-  const RevolutionSurface s = revolution_surface(shape, x, z_top, 2 * n_facets);
+  const RevolutionSurface s = revolution_surface(shape, x, rotation, z_top, 2 * n_facets);
   write_surface(file, s.points, s.triangles, {});
 }
 

@@ -22,12 +22,13 @@ std::vector<Field> strain_fields(const std::vector<DeformationFit>& fits);
 /// [N m] and D. A bond through a periodic face ends at the image of its second particle.
 void write_bonds(const std::filesystem::path& file, const Assembly& assembly);
 
-/// A body of revolution at x, up to z_top [m]: its half at y >= 0 and the face that cuts it.
+/// A body of revolution at x, rotated about x, up to z_top [m] where it stands upright: its half
+/// at y >= 0 and the face that cuts it.
 void write_half_revolution(const std::filesystem::path& file, const Revolution& shape,
-                           const Vec3& x, double z_top);
+                           const Vec3& x, const Eigen::Quaterniond& rotation, double z_top);
 /// The whole of it.
 void write_revolution(const std::filesystem::path& file, const Revolution& shape,
-                      const Vec3& x, double z_top);
+                      const Vec3& x, const Eigen::Quaterniond& rotation, double z_top);
 
 /// Mean damage of the bonds of each particle, broken ones included [-].
 std::vector<double> particle_damage(const Assembly& assembly);

@@ -24,9 +24,50 @@ Vec3 RigidWall::resultant() const
   return sum;
 }
 
+namespace {
+
+/// A shape where its wall stands. Shapes stand upright: where the wall is rotated they see
+/// the particle from their own axes.
+template <class Shape>
+class Placed {
+public:
+  Placed(const Shape& shape, const RigidWall& wall)
+      : shape_(shape), x_(wall.x), is_rotated_(wall.is_rotated()),
+        Q_(wall.rotation.toRotationMatrix())
+  {
+  }
+  bool is_beyond(const ParticleState& b, double gap) const
+  {
+    if (!is_rotated_) return shape_.is_beyond(b, x_, gap);
+    return shape_.is_beyond(seen(b), Vec3::Zero(), gap);
+  }
+  SurfacePoint closest_point(const ParticleState& b) const
+  {
+    if (!is_rotated_) return shape_.closest_point(b, x_);
+    SurfacePoint at = shape_.closest_point(seen(b), Vec3::Zero());
+    at.n = Q_ * at.n;
+    at.point = x_ + Q_ * at.point;
+    return at;
+  }
+
+private:
+  ParticleState seen(ParticleState b) const
+  {
+    b.x = Q_.transpose() * Vec3(b.x - x_);
+    return b;
+  }
+
+  const Shape& shape_;
+  Vec3 x_;
+  bool is_rotated_;
+  Mat3 Q_;
+};
+
+} // namespace
+
 SurfacePoint closest_point(const RigidWall& wall, const ParticleState& b)
 {
-  return std::visit([&](const auto& shape) { return shape.closest_point(b, wall.x); },
+  return std::visit([&](const auto& shape) { return Placed(shape, wall).closest_point(b); },
                     wall.shape);
 }
 
@@ -36,43 +77,49 @@ void rebuild_wall(RigidWall& wall, const PairMaterials&, const Particles& p, dou
   std::vector<WallContact> near;
   const double reach = activation_gap(wall.material) + skin;
   std::visit(
-      [&](const auto& shape) {
+      [&](const auto& upright) {
+        const Placed shape(upright, wall);
         p.for_owned([&](Index i) {
           const ParticleState& b = p.state[i];
           const double most = reach * b.S + (extra.empty() ? 0.0 : extra[i]);
-          if (shape.is_beyond(b, wall.x, most)) return; // most particles
+          if (shape.is_beyond(b, most)) return; // most particles
           const double gap =
-              with_particle_id(p.id[i], [&] { return shape.closest_point(b, wall.x).gap; });
+              with_particle_id(p.id[i], [&] { return shape.closest_point(b).gap; });
           if (gap < most) near.push_back({.particle = i});
         });
       },
       wall.shape);
   wall.contacts = carry_history(std::move(near), wall.contacts);
   wall.x_listed = wall.x;
+  wall.rotation_listed = wall.rotation;
 }
 
 double travel(const RigidWall& wall)
 {
-  return (wall.x - wall.x_listed).norm();
+  return (wall.x - wall.x_listed).norm() +
+         wall.reach * wall.rotation.angularDistance(wall.rotation_listed);
 }
 
 void add_wall_forces(RigidWall& wall, const PairMaterials&, double dt, Particles& p,
                      PairLosses& losses)
 {
   for (VectorSum& f : wall.force) f.clear();
+  wall.moment.clear();
   std::visit(
-      [&](const auto& shape, const auto& law) {
+      [&](const auto& upright, const auto& law) {
+        const Placed shape(upright, wall);
         for (WallContact& c : wall.contacts) {
           const ParticleState& particle = p.state[c.particle];
           const bool is_open = c.overlap == 0.0 && c.f_s == Vec3::Zero();
-          if (is_open &&
-              shape.is_beyond(particle, wall.x, activation_gap(law) * particle.S))
+          if (is_open && shape.is_beyond(particle, activation_gap(law) * particle.S))
             continue; // most candidates
           const SurfacePoint closest = with_particle_id(
-              p.id[c.particle], [&] { return shape.closest_point(particle, wall.x); });
-          wall.force[closest.part].add(
-              -add_wall_contact(law, {closest.n, closest.gap, closest.point, wall.v}, dt,
-                                particle, p.load[c.particle], c, losses));
+              p.id[c.particle], [&] { return shape.closest_point(particle); });
+          const Vec3 f = -add_wall_contact(
+              law, {closest.n, closest.gap, closest.point, wall.velocity_at(closest.point)},
+              dt, particle, p.load[c.particle], c, losses);
+          wall.force[closest.part].add(f);
+          if (c.overlap > 0.0) wall.moment.add((closest.point - wall.x).cross(f));
         }
       },
       wall.shape, wall.material);
@@ -85,7 +132,9 @@ EnergySum stored_energy(const RigidWall& wall, const Particles& p)
 
 double power(const RigidWall& wall)
 {
-  return -wall.resultant().dot(wall.v);
+  const double translation = -wall.resultant().dot(wall.v);
+  if (wall.omega == Vec3::Zero()) return translation;
+  return translation - wall.moment.value().dot(wall.omega);
 }
 
 } // namespace mergel::dem

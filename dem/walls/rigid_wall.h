@@ -8,6 +8,8 @@
 #include "dem/walls/plane.h"
 #include "dem/walls/revolution.h"
 
+#include <Eigen/Geometry>
+
 #include <concepts>
 #include <variant>
 #include <vector>
@@ -15,8 +17,8 @@
 namespace mergel::dem {
 
 /// A shape has named parts, whose resultants are kept apart, and a closest point to a
-/// particle when the wall stands at x [m]. A quick test may tell that the gap is larger than
-/// `gap`; it may fail to.
+/// particle when the wall stands upright at x [m]. A quick test may tell that the gap is
+/// larger than `gap`; it may fail to.
 // clang-format off
 template <class Shape>
 concept IsRigidShape =
@@ -32,17 +34,30 @@ concept IsRigidShape =
 using RigidShape = std::variant<Plane, Revolution>;
 static_assert(IsRigidShape<Plane> && IsRigidShape<Revolution>);
 
+/// The caller sets position, rotation and both velocities.
 struct RigidWall {
   RigidShape shape;
-  Vec3 x = Vec3::Zero(); ///< position: the origin of the shape [m]; set by the caller
-  Vec3 v = Vec3::Zero(); ///< velocity [m/s]; set by the caller
+  Vec3 x = Vec3::Zero(); ///< position: the origin of the shape [m]
+  Vec3 v = Vec3::Zero(); ///< velocity of the origin [m/s]
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity(); ///< about the origin
+  Vec3 omega = Vec3::Zero();                                    ///< spin [rad/s]
+  double reach = 0.0; ///< of a wall that rotates: no particle that it touches is farther
+                      ///< from its origin [m]
   ContactLaw material;
   std::vector<WallContact> contacts; ///< candidates, ascending in particle
   Vec3 x_listed = Vec3::Zero();      ///< x when the candidates were found [m]
-  std::vector<VectorSum> force;      ///< on each part in the last step, of all ranks [N]
+  Eigen::Quaterniond rotation_listed = Eigen::Quaterniond::Identity(); ///< rotation then
+  std::vector<VectorSum> force;  ///< on each part in the last step, of all ranks [N]
+  ExactVector<MomentSum> moment; ///< of these about the origin, of all ranks [N m]
   EnergySum work; ///< on the particles by the motion of the wall, of all ranks [J]
 
   Vec3 resultant() const; ///< of the forces on all parts [N]
+  bool is_rotated() const { return rotation.vec() != Vec3::Zero(); }
+  Vec3 velocity_at(const Vec3& point) const ///< of a point that moves with it [m/s]
+  {
+    if (omega == Vec3::Zero()) return v;
+    return v + omega.cross(point - x);
+  }
 };
 
 RigidWall make_rigid_wall(RigidShape shape, const Vec3& x, const ContactLaw& material);
@@ -58,7 +73,7 @@ SurfacePoint closest_point(const RigidWall& wall, const ParticleState& b);
 void rebuild_wall(RigidWall& wall, const PairMaterials& material, const Particles& p,
                   double skin, const std::vector<double>& extra = {});
 
-/// Motion of the wall since the candidates were found [m].
+/// Largest motion of a point within reach since the candidates were found [m].
 double travel(const RigidWall& wall);
 
 /// Add the contact forces to p.load and set wall.force over the step dt [s] that ends now.
@@ -84,6 +99,7 @@ requires std::same_as<std::remove_const_t<Wall>, RigidWall>
 void visit_sums(Wall& wall, Visit&& visit)
 {
   visit("force", SumKind::forces, wall.force);
+  visit("moment", SumKind::forces, wall.moment);
   visit("work", SumKind::total, wall.work);
 }
 

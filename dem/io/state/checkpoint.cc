@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int version = 2; // 1: numbers in a fixed order, without names
+// 1: numbers in a fixed order, without names; 2: rigid walls that do not rotate
+constexpr int version = 3;
 const std::string kind = "checkpoint";
 
 } // namespace

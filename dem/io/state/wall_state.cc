@@ -153,6 +153,9 @@ void save_wall(State& state, const std::string& name, const RigidWall& wall)
   const auto row = [](const Vec3& a) { return std::vector<double>{a.x(), a.y(), a.z()}; };
   state.add_common(name + "_x", row(wall.x), 3);
   state.add_common(name + "_v", row(wall.v), 3);
+  const auto& q = wall.rotation;
+  state.add_common<double>(name + "_rotation", {q.x(), q.y(), q.z(), q.w()}, 4);
+  state.add_common(name + "_omega", row(wall.omega), 3);
   save_wall_contacts(state, name, wall.contacts);
 }
 
@@ -160,6 +163,9 @@ void load_wall(const State& state, const std::string& name, std::size_t n, Rigid
 {
   wall.x = vec_at(state.get_rows<double>(name + "_x", 1, 3), 0);
   wall.v = vec_at(state.get_rows<double>(name + "_v", 1, 3), 0);
+  const auto& q = state.get_rows<double>(name + "_rotation", 1, 4);
+  wall.rotation = Eigen::Quaterniond(q[3], q[0], q[1], q[2]);
+  wall.omega = vec_at(state.get_rows<double>(name + "_omega", 1, 3), 0);
   wall.contacts = load_wall_contacts(state, name, n);
 }
 
