@@ -1,5 +1,6 @@
 #include "coupling/equilibrium.h"
 
+#include "dem/assembly/overlaps.h"
 #include "dem/text.h"
 
 #include <algorithm>

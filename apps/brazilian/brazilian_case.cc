@@ -92,7 +92,8 @@ coupling::CoupledSpec coupled_spec(const BrazilianCase& c)
 {
   coupling::CoupledSpec spec;
   spec.material = c.material;
-  spec.motion = {dem::Vec3::Zero(), c.damping, c.free_rotation, c.inertia_factor};
+  spec.motion = {dem::Vec3::Zero(), c.damping, c.free_rotation, c.inertia_factor,
+                 c.largest_overlap};
   spec.skin = dem::default_skin * c.specimen.specimen.sizes.smallest();
   spec.step = c.step;
   spec.mass_scaling = c.mass_scaling;

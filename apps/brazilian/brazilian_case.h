@@ -27,6 +27,7 @@ struct BrazilianCase : coupling::BrazilianControl {
   bool free_rotation = false;
   dem::StepSpec step;
   double inertia_factor = 1.0;
+  double largest_overlap = dem::Motion{}.largest_overlap; ///< over the smaller radius [-]
   dem::MassScalingSpec mass_scaling;
 
   // Set by complete()

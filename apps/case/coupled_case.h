@@ -41,6 +41,7 @@ struct CoupledCase : SpecimenKeys {
   bool free_rotation = false;
   dem::StepSpec step;
   double inertia_factor = 1.0;
+  double largest_overlap = dem::Motion{}.largest_overlap; ///< over the smaller radius [-]
   dem::MassScalingSpec mass_scaling;
   double unbalanced_tolerance = 1e-4; ///< unbalanced-force ratio of an equilibrium [-]
 

@@ -27,6 +27,9 @@ void declare(CaseFile& file, const MotionKeys& keys)
       "of pile_small by a tenth, 1.26 within its scatter.");
   file.number("mass scaling limit", keys.mass_scaling.largest_share, non_negative,
               "Largest share of mass that the particles of one zone of S may gain.");
+  file.number("largest overlap", keys.largest_overlap, above_to(0.0, 1.0),
+              "Overlap of two particles over the smaller radius at which the run stops; a "
+              "restart may change it.");
 }
 
 void complete(CaseFile& file, const MotionKeys& keys)

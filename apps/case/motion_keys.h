@@ -13,13 +13,14 @@ struct MotionKeys {
   dem::StepSpec& step;
   double& inertia_factor;
   dem::MassScalingSpec& mass_scaling;
+  double& largest_overlap;
 };
 
 /// Those of a case, which has them under these names.
 template <class Case>
 MotionKeys motion_keys(Case& c)
 {
-  return {c.free_rotation, c.step, c.inertia_factor, c.mass_scaling};
+  return {c.free_rotation, c.step, c.inertia_factor, c.mass_scaling, c.largest_overlap};
 }
 
 /// Declare them in the open section `Motion`.

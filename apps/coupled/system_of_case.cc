@@ -28,7 +28,7 @@ coupling::CoupledSpec coupled_spec(const CoupledCase& c)
   coupling::CoupledSpec spec;
   spec.material = c.material;
   spec.motion = {dem::Vec3(0.0, 0.0, -c.gravity), c.damping, c.free_rotation,
-                 c.inertia_factor};
+                 c.inertia_factor, c.largest_overlap};
   spec.skin = dem::skin_under_penetration * c.specimen.sizes.smallest();
   spec.step = c.step;
   spec.mass_scaling = c.mass_scaling;

@@ -180,8 +180,8 @@ std::string CheckpointScheduler::remedy_of_instability() const
 {
   if (last_.empty()) return remedy();
   return "; the last checkpoint is " + last_.string() +
-         ". Continued from it, the same run would fail again. Begin a new run with the "
-         "change named above, or, where a smaller time step helps, continue with: mergel " +
+         ". Continued from it, the same run would fail again. Continue with the change "
+         "named above where a restart may make it, or with a smaller time step: mergel " +
          spec_.job + " --restart " + spec_.folder.string() +
          " --set \"Motion/time step safety=...\"";
 }

@@ -31,8 +31,9 @@ namespace {
 std::vector<std::string> free_keys_of(const CheckpointedJob& job)
 {
   std::vector<std::string> keys = job.free_keys();
-  keys.insert(keys.end(), {"Motion/time step safety", "Output/checkpoint every",
-                           "Output/checkpoint at end", "Specimen/file"});
+  keys.insert(keys.end(),
+              {"Motion/time step safety", "Motion/largest overlap",
+               "Output/checkpoint every", "Output/checkpoint at end", "Specimen/file"});
   return keys;
 }
 

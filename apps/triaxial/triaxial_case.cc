@@ -116,7 +116,7 @@ void declare_motion(CaseFile& file, TriaxialCase& c)
   const auto section = file.section("Motion");
   file.number("damping", c.damping, from_to(0.0, 1.0).named("alpha"),
               "Local non-viscous damping of particles, membrane and tilting platen.");
-  declare(file, MotionKeys{c.free_rotation, c.step, c.inertia_factor, c.mass_scaling});
+  declare(file, motion_keys(c));
 }
 
 /// Refuse a stage that the cell cannot do.
@@ -268,7 +268,7 @@ void complete(CaseFile& file, TriaxialCase& c)
   if (c.specimen.shape != SpecimenKeys::Shape::cylinder)
     file.refuse("Specimen", "shape", "a triaxial test needs a `cylinder`");
   c.specimen.specimen.free_rotation = c.free_rotation;
-  complete(file, MotionKeys{c.free_rotation, c.step, c.inertia_factor, c.mass_scaling});
+  complete(file, motion_keys(c));
   c.material = {c.bond.chosen(), c.contact.chosen()};
   complete(file, c.specimen, c.material.contact);
   if (c.specimen.upscaling != SpecimenKeys::Upscaling::uniform)
@@ -302,7 +302,8 @@ coupling::CoupledSpec coupled_spec(const TriaxialCase& c)
 {
   coupling::CoupledSpec spec;
   spec.material = c.material;
-  spec.motion = {dem::Vec3::Zero(), c.damping, c.free_rotation, c.inertia_factor};
+  spec.motion = {dem::Vec3::Zero(), c.damping, c.free_rotation, c.inertia_factor,
+                 c.largest_overlap};
   spec.skin = dem::default_skin * c.specimen.specimen.sizes.smallest();
   spec.step = c.step;
   spec.mass_scaling = c.mass_scaling;

@@ -1,6 +1,7 @@
 #include "coupling/triaxial/triaxial_test.h"
 
 #include "dem/assembly/averages.h"
+#include "dem/assembly/overlaps.h"
 #include "dem/text.h"
 
 #include <algorithm>

@@ -2,8 +2,6 @@
 #include "dem/pairs/pair_sums.h"
 #include "dem/timer.h"
 
-#include <algorithm>
-
 namespace mergel::dem {
 
 namespace {
@@ -145,29 +143,6 @@ double unbalanced_ratio(const Assembly& assembly)
   sums.add(forces);
   sums.run(assembly.comm);
   return forces.value() > 0.0 ? resultants.value() / forces.value() : 0.0;
-}
-
-void check_overlaps(const Assembly& assembly)
-{
-  const auto check = [&](const Pair& q) {
-    const ParticleState &i = assembly.particles.state[q.i],
-                        &j = assembly.particles.state[q.j];
-    const double r = std::min(i.R, j.R);
-    const double overlap = i.R + j.R - (j.x + assembly.cell.offset(q.shift) - i.x).norm();
-    if (!(overlap <= 0.5 * r))
-      throw NumericalError(
-          "particles " + std::to_string(assembly.particles.id[q.i]) + " and " +
-          std::to_string(assembly.particles.id[q.j]) + " overlap by " +
-          std::to_string(overlap / r) +
-          " of the smaller radius (at most 0.5): the contact is too soft for "
-          "this load");
-  };
-  Fault fault = assembly.fault; // may hold an earlier one that is not reported yet
-  fault.run([&] {
-    for (const Pair& q : assembly.bonds.pairs) check(q);
-    for (const Pair& q : assembly.contacts.pairs) check(q);
-  });
-  assembly.comm.agree_on(fault);
 }
 
 std::vector<double> wall_powers(const Assembly& assembly)

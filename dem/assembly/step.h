@@ -40,10 +40,6 @@ void advance(Assembly& assembly, double dt_before, double dt, MoveWalls&& move_w
 /// Unbalanced-force ratio of the assembly [-].
 double unbalanced_ratio(const Assembly& assembly);
 
-/// @throws Unstable naming the two particles that overlap by more than half of the smaller
-///   radius
-void check_overlaps(const Assembly& assembly);
-
 /// Power of each wall on the particles, from the forces of the last step, at the present
 /// wall velocities [W].
 std::vector<double> wall_powers(const Assembly& assembly);

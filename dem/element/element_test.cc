@@ -1,6 +1,7 @@
 #include "dem/element/element_test.h"
 
 #include "dem/assembly/distribute.h"
+#include "dem/assembly/overlaps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,6 +62,7 @@ ElementTest::ElementTest(const ElementControl& c, PeriodicSpecimen specimen,
   r.motion.damping = c.damping;
   r.motion.free_rotation = c.free_rotation;
   r.motion.inertia_factor = c.inertia_factor;
+  r.motion.largest_overlap = c.largest_overlap;
   double m = 0.0, V = 0.0, dV = 0.0;
   for (const ParticleState& b : r.particles.state) {
     const double v = sphere_mass(b.R, 1.0);
@@ -94,6 +96,7 @@ ElementTest::ElementTest(const ElementControl& c, ElementState state, MPI_Comm c
   r.motion.damping = c.damping;
   r.motion.free_rotation = c.free_rotation;
   r.motion.inertia_factor = c.inertia_factor;
+  r.motion.largest_overlap = c.largest_overlap;
   r.list = VerletList(activation_gap(r.material.contact), list_skin(r.particles));
   distribute(r, comm);
   rebuild_lists(r);

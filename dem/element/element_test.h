@@ -18,12 +18,13 @@ struct ElementControl {
   double reference_pressure = 1e6; ///< smallest |p| in the inertial number [Pa]
   double strain_limit = 0.5;       ///< of the test [-]
   double reversal = 0.5;           ///< share of its progress by which a stress may fall [-]
-  double damping = default_damping; ///< local damping alpha [-], in [0, 1)
-  StepSpec step;                    ///< rule and safety of the time step
-  double inertia_factor = 1.0;      ///< of the moments of inertia [-], > 0
-  MassScalingSpec mass_scaling;     ///< off by default
-  bool free_rotation = false;       ///< of particles without a bond
-  double record_every = 2e-4;       ///< strain [-]
+  double damping = default_damping;                  ///< local damping alpha [-], in [0, 1)
+  StepSpec step;                                     ///< rule and safety of the time step
+  double inertia_factor = 1.0;                       ///< of the moments of inertia [-], > 0
+  double largest_overlap = Motion{}.largest_overlap; ///< at which the test stops [-]
+  MassScalingSpec mass_scaling;                      ///< off by default
+  bool free_rotation = false;                        ///< of particles without a bond
+  double record_every = 2e-4;                        ///< strain [-]
 };
 
 /// Particles of a periodic cell and their bonded pairs.

@@ -17,6 +17,8 @@ struct Motion {
   double damping = default_damping; ///< local damping alpha [-], 0 to below 1
   bool free_rotation = false;       ///< lets particles without an intact bond spin
   double inertia_factor = 1.0; ///< of the moments of inertia in the equations of motion [-]
+  /// Overlap of two particles over the smaller radius at which a run stops [-].
+  double largest_overlap = 0.9;
 };
 
 /// Moment of inertia in the equations of motion [kg m^2].

@@ -1,6 +1,7 @@
 #include "dem/specimen/compaction.h"
 
 #include "dem/assembly/distribute.h"
+#include "dem/assembly/overlaps.h"
 #include "dem/assembly/step.h"
 #include "dem/assembly/timestep.h"
 #include "dem/specimen/growth.h"
@@ -34,6 +35,7 @@ Assembly make_assembly(const SpecimenSpec& s, const Packing& packing, double fri
   assembly.cell = packing.cell;
   assembly.material.contact = with_friction(s.contact, friction);
   assembly.motion.free_rotation = s.free_rotation;
+  assembly.motion.largest_overlap = 0.5; // a specimen is made at low pressure
   const double d00 = s.sizes.smallest();
   assembly.list =
       VerletList(activation_gap(s.contact) + growth_reserve * d00, default_skin * d00);

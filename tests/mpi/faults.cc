@@ -10,6 +10,7 @@
 #include "apps/bench/workloads.h"
 #include "apps/run/run_guard.h"
 #include "dem/assembly/distribute.h"
+#include "dem/assembly/overlaps.h"
 #include "dem/collective_failure.h"
 
 #include <cstdio>
