@@ -24,15 +24,14 @@ std::string violation(const Range& range, const std::string& range_text,
          (range.remedy.empty() ? sentence : range.remedy);
 }
 
-/// Texts that the format of the case file cannot hold are refused.
+} // namespace
+
 void require_writable(const std::string& text)
 {
   if (text.find_first_of("#\n\r") != std::string::npos || text.ends_with('\\'))
     throw InputError("must be one line without '#', not ending in '\\'. Rename the file or "
                      "leave the character out.");
 }
-
-} // namespace
 
 CaseFile::CaseFile() : impl_(std::make_unique<Impl>()) {}
 CaseFile::~CaseFile() = default;
@@ -278,6 +277,14 @@ void CaseFile::text(const std::string& key, std::string& target,
                 require_writable(text);
                 return target = text;
               }});
+}
+
+void CaseFile::numbered(const std::string& stem, std::map<std::size_t, std::string>& texts,
+                        const std::string& sentence, const std::string& next)
+{
+  const NumberedKeys group{impl_->open_section, stem, next, &texts};
+  impl_->add(group.key(1, sentence));
+  impl_->numbered.push_back(group);
 }
 
 void CaseFile::path(const std::string& key, std::filesystem::path& target,

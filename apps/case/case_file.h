@@ -19,6 +19,7 @@
 #include <functional>
 #include <iosfwd>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -168,6 +169,12 @@ public:
   /// One line of text without '#' or a last '\'; may be empty unless it must be given.
   void text(const std::string& key, std::string& target, const std::string& sentence,
             Default standard = Default::present);
+
+  /// Text keys "stem 1", "stem 2" and so on, as many as a case gives. `texts` gets those that
+  /// are not empty, by their numbers.
+  /// @param next sentence of all but the first
+  void numbered(const std::string& stem, std::map<std::size_t, std::string>& texts,
+                const std::string& sentence, const std::string& next);
 
   /// A file or folder; may be empty unless it must be given. A relative path in the case
   /// file starts at the case file's folder, one from --set or a default at the working

@@ -4,6 +4,8 @@
 #include "dem/error.h"
 
 #include <algorithm>
+#include <charconv>
+#include <set>
 #include <stdexcept>
 
 namespace mergel::apps {
@@ -46,6 +48,49 @@ void CaseFile::Impl::add(CaseKey key)
       throw std::logic_error("CaseFile: " + key.section + "/" + key.name +
                              " is declared twice");
   keys.push_back(std::move(key));
+}
+
+std::size_t NumberedKeys::number_in(const std::string& key) const
+{
+  if (!key.starts_with(stem + ' ')) return 0;
+  std::size_t number = 0;
+  const char *begin = key.data() + stem.size() + 1, *end = key.data() + key.size();
+  const auto [at, error] = std::from_chars(begin, end, number);
+  return error == std::errc{} && at == end && *begin != '0' ? number : 0;
+}
+
+CaseKey NumberedKeys::key(std::size_t number, const std::string& sentence) const
+{
+  CaseKey k;
+  k.name = name(number);
+  k.section = section;
+  k.unit = "-";
+  k.allowed = "text";
+  k.sentence = sentence;
+  k.parse = [number, to = texts](const std::string& text, const std::filesystem::path&) {
+    require_writable(text);
+    if (!text.empty()) (*to)[number] = text;
+    return text;
+  };
+  return k;
+}
+
+void CaseFile::Impl::declare_numbers(const std::vector<CaseEntry>& entries)
+{
+  for (const NumberedKeys& group : numbered) {
+    group.texts->clear();
+    std::set<std::size_t> numbers;
+    for (const CaseEntry& e : entries)
+      if (e.section == group.section) numbers.insert(group.number_in(e.key));
+    std::erase_if(keys, [&](const CaseKey& k) {
+      return k.section == group.section && group.number_in(k.name) > 1;
+    });
+    auto at = std::find_if(keys.begin(), keys.end(), [&](const CaseKey& k) {
+      return k.section == group.section && k.name == group.name(1);
+    });
+    for (const std::size_t number : numbers)
+      if (number > 1) at = keys.insert(at + 1, group.key(number, group.next));
+  }
 }
 
 bool CaseFile::Impl::exists(const CaseKey& key)

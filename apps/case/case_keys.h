@@ -38,10 +38,25 @@ struct CaseKey {
   std::pair<std::string, std::string> needed_by = {};
 };
 
+/// Refuse a text that the format of the case file cannot hold. @throws InputError
+void require_writable(const std::string& text);
+
+/// Keys "stem 1", "stem 2" and so on of a section.
+struct NumberedKeys {
+  std::string section, stem, next; ///< sentence of all but the first
+  std::map<std::size_t, std::string>* texts;
+
+  std::string name(std::size_t number) const { return stem + ' ' + std::to_string(number); }
+  /// The number of a key of this name; 0 for any other.
+  std::size_t number_in(const std::string& key) const;
+  CaseKey key(std::size_t number, const std::string& sentence) const;
+};
+
 /// What a CaseFile holds.
 struct CaseFile::Impl {
   std::vector<std::string> sections; ///< in the order of declaration
   std::vector<CaseKey> keys;
+  std::vector<NumberedKeys> numbered;
   std::map<std::pair<std::string, std::string>, std::string>
       former_names; ///< by section and former name: the present one
   std::map<std::string, std::string> former_sections; ///< the same
@@ -75,6 +90,9 @@ struct CaseFile::Impl {
 
   /// Refuse a key that does not exist in this case, naming the choice that it belongs to.
   [[noreturn]] void refuse_inactive(const CaseKey& key);
+
+  /// Declare the numbered keys that these entries have, and no others but the first of each.
+  void declare_numbers(const std::vector<CaseEntry>& entries);
 
   /// Where the value of a key comes from, as in CaseFile::where().
   std::string place(const CaseKey& key) const;

@@ -11,6 +11,21 @@
 
 namespace mergel::apps {
 
+namespace {
+
+/// All entries of a case; a malformed --set, which is refused later, is left out.
+std::vector<CaseEntry> with_overrides(std::vector<CaseEntry> entries,
+                                      const std::vector<std::string>& overrides)
+{
+  for (const std::string& argument : overrides) try {
+      entries.push_back(scan_override(argument));
+    } catch (const InputError&) {
+    }
+  return entries;
+}
+
+} // namespace
+
 void CaseFile::read(const std::filesystem::path& path,
                     const std::vector<std::string>& overrides)
 {
@@ -50,13 +65,13 @@ void CaseFile::read(const std::string& text, const std::string& name,
 {
   impl_->is_read = false;
   impl_->file_name = name;
+  const CaseScan scan = scan_case(text, impl_->file_name);
+  impl_->declare_numbers(with_overrides(scan.entries, overrides));
   for (CaseKey& key : impl_->keys) {
     key.line = 0;
     key.is_override = false;
     key.is_active = true;
   }
-
-  const CaseScan scan = scan_case(text, impl_->file_name);
   impl_->section_lines = scan.sections;
   impl_->match_file(scan);
 

@@ -149,13 +149,27 @@ void read_case(CaseFile& file, const JobOptions& options,
   file.read(resolved, options.set);
 }
 
+namespace {
+
+/// Whether `key` is `free`; one that ends in " N" stands for all numbers.
+bool is_free(const std::string& key, const std::string& free)
+{
+  if (!free.ends_with(" N")) return key == free;
+  const std::string stem = free.substr(0, free.size() - 1);
+  return key.starts_with(stem) && key.size() > stem.size() &&
+         key.find_first_not_of("0123456789", stem.size()) == std::string::npos;
+}
+
+} // namespace
+
 void check_case(const CaseFile& file, Restart& restart,
                 const std::vector<std::string>& free)
 {
   restart.changed = file.changes_since(restart.checkpoint.label.case_text);
   for (const CaseFile::Change& c : restart.changed) {
     const std::string key = c.section + "/" + c.key;
-    if (std::find(free.begin(), free.end(), key) == free.end())
+    if (std::none_of(free.begin(), free.end(),
+                     [&](const std::string& f) { return is_free(key, f); }))
       throw InputError("--restart " + restart.file.string() + ": " + key + " was " +
                        shown(c.was) + ", the case asks for " + shown(c.is) +
                        ". Restore it, or begin a new run; a restart may change only " +

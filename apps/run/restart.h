@@ -49,7 +49,7 @@ void read_case(CaseFile& file, const JobOptions& options,
                const std::optional<Restart>& restart);
 
 /// Compare the case with that of the checkpoint, for restart.changed.
-/// @param free the keys that may change, "Section/key"
+/// @param free the keys that may change, "Section/key" or "Section/key N" for all numbers
 /// @throws InputError naming another key that has changed: "was X, the case asks for Y"
 void check_case(const CaseFile& file, Restart& restart,
                 const std::vector<std::string>& free);
