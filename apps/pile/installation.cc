@@ -29,25 +29,29 @@ void BreakageCount::collect(const PileCase& c, dem::Assembly& assembly)
   assembly.losses.breakages.clear();
 }
 
-void MeanForce::add(const dem::RigidWall& pile)
+void MeanForce::add(const dem::RigidWall& pile, const coupling::DrivenPile& head_of_pile)
 {
   tip += pile.force[dem::Revolution::tip].z.value();
   shaft += pile.force[dem::Revolution::shaft].z.value();
+  head += head_of_pile.head_force(pile);
+  lateral += head_of_pile.lateral_force(pile);
   ++n;
 }
 
 dem::RigidWall make_pile(const PileCase& c)
 {
   const double R = 0.5 * c.diameter;
-  return dem::make_rigid_wall(c.tip == PileCase::Tip::flat
-                                  ? dem::flat_ended(R)
-                                  : dem::cone_ended(R, c.tip_height()),
-                              dem::Vec3::Zero(), c.contact);
+  dem::RigidWall pile = dem::make_rigid_wall(c.tip == PileCase::Tip::flat
+                                                 ? dem::flat_ended(R)
+                                                 : dem::cone_ended(R, c.tip_height()),
+                                             dem::Vec3::Zero(), c.contact);
+  pile.reach = c.assembly.height; // what it touches is in the DEM region
+  return pile;
 }
 
 Installation::Installation(const PileCase& c, coupling::CoupledSystem& coupled,
                            std::optional<PileOutput>& output)
-    : case_(c), coupled_(coupled), output_(output), rate_(c), next_record_(c.record_every)
+    : case_(c), coupled_(coupled), output_(output), stage_run_(c, coupled)
 {
 }
 
@@ -60,7 +64,6 @@ void Installation::begin()
   start_ = coupled_.energy_balances(); // a flat tip may press on particles where it stands
   count_bonds();
   frame();
-  n_frames_ = 1;
 }
 
 void Installation::count_bonds()
@@ -76,39 +79,86 @@ void Installation::count_bonds()
   n_bonds_ = n_between_ + assembly.comm.global_sum(n);
 }
 
+std::string Installation::phase() const
+{
+  if (!case_.has_stages()) return "penetration";
+  const std::size_t k = position_.n_done; // behind the last stage only when it is finished
+  if (k >= case_.stages.size()) return "finished";
+  return "stage " + std::to_string(k + 1) + " (" + name_of(case_.stages[k]) + ")";
+}
+
 void Installation::run(const std::function<void()>& after_step)
 {
-  dem::RigidWall& pile = coupled_.assembly.rigid_walls.front();
-  Progress progress("penetration");
-  while (travelled() < rate_.travel()) {
-    coupled_.step([&](double dt) {
-      pile.v.z() = -rate_.velocity(travelled());
-      pile.x.z() += dt * pile.v.z();
-    });
-    time_ += coupled_.dt_before;
-    force_.add(pile);
-    if (coupled_.n_steps % dem::steps_between_step_checks == 0)
-      dem::check_overlaps(coupled_.assembly);
+  while (position_.n_done < case_.stages.size()) {
+    if (!position_.is_under_way) begin_stage();
+    run_stage(after_step);
+    end_stage();
+  }
+}
 
-    const bool is_over = travelled() >= rate_.travel();
-    if (travelled() >= next_record_ || is_over) {
+void Installation::begin_stage()
+{
+  stage_run_.begin(position_.n_done);
+  position_.is_under_way = true;
+  if (stage_run_.stage().kind == PileStage::Kind::penetrate) {
+    push_ = {travelled(), stage_run_.rate().travel(), travelled()};
+    ++n_pushes_;
+    space_frames_anew();
+  }
+  space_records_anew();
+}
+
+void Installation::run_stage(const std::function<void()>& after_step)
+{
+  const bool penetrates = stage_run_.stage().kind == PileStage::Kind::penetrate;
+  Progress progress(phase());
+  for (bool is_over = penetrates && push_.end <= travelled(); !is_over;) {
+    stage_run_.step();
+    time_ += coupled_.dt_before;
+    force_.add(coupled_.assembly.rigid_walls.front(), head());
+    if (coupled_.n_steps % dem::steps_between_step_checks == 0)
+      progress.say(read_overlaps());
+
+    is_over = stage_run_.is_over();
+    if (stage_run_.position() >= next_record_ || is_over) {
       progress.say(record());
-      next_record_ += case_.record_every;
+      next_record_ += stage_run_.record_every();
     }
-    if (travelled() >= next_frame() || is_over) {
+    if ((penetrates && travelled() >= next_frame()) || is_over) {
       frame();
       ++n_frames_;
     }
     if (coupled_.n_steps % 20 == 0)
-      progress.update(travelled() / rate_.travel(), [&] { return now(); });
+      progress.update(stage_run_.fraction(), [&] { return now(); });
     if (!is_over) after_step();
   }
-  progress.done(now());
+  progress.done(case_.has_stages() ? now() + "  " + stage_run_.outcome() : now());
 }
 
-double Installation::travelled() const
+void Installation::end_stage()
 {
-  return -coupled_.assembly.rigid_walls.front().x.z();
+  n_at_capacity_ += stage_run_.has_capacity();
+  ++position_.n_done;
+  position_.is_under_way = false;
+}
+
+std::string Installation::read_overlaps()
+{
+  const dem::Overlaps found = dem::check_overlaps(coupled_.assembly);
+  overlaps_.add(found);
+  largest_overlaps_.add(found);
+  constexpr double step = 0.1; // from one line to the next [-]
+  const double next = said_overlap_ > 0.0 ? said_overlap_ + step : dem::Overlaps::high_mark;
+  if (!(found.largest > next)) return "";
+  said_overlap_ = step * std::floor(found.largest / step);
+  std::ostringstream out;
+  out.precision(2);
+  out << "the largest overlap has grown to " << found.largest << " of the smaller radius; "
+      << found.beyond_mark << " pairs overlap by more than " << dem::Overlaps::mark << ", "
+      << found.beyond_high_mark << " by more than " << dem::Overlaps::high_mark
+      << "; the run stops at `Motion/largest overlap` = "
+      << coupled_.assembly.motion.largest_overlap << '\n';
+  return out.str();
 }
 
 void Installation::frame()
@@ -123,6 +173,7 @@ std::string Installation::now() const
   out.precision(3);
   out << "depth " << 1e3 * last_.depth << " mm (" << last_.depth / case_.diameter
       << " D_p)  q_c " << 1e-6 * last_.q_c << " MPa  broken " << last_.broken;
+  if (case_.has_stages()) out << "  head " << last_.F_head << " N";
   return out.str();
 }
 
@@ -137,6 +188,13 @@ PileRecord Installation::new_record(const coupling::EnergyBalances& energy_balan
   r.F_tip = to_full * force_.tip / static_cast<double>(force_.n);
   r.F_shaft = to_full * force_.shaft / static_cast<double>(force_.n);
   r.q_c = r.F_tip / area;
+  r.stage = position_.n_done + 1;
+  r.F_head = half_to_full * force_.head / static_cast<double>(force_.n);
+  r.F_lateral = half_to_full * force_.lateral / static_cast<double>(force_.n);
+  r.displacement = head().displacement(coupled_.assembly.rigid_walls.front());
+  r.rotation = head().rotation();
+  r.head = head().energies();
+  r.overlaps = overlaps_;
   breakage_.collect(case_, coupled_.assembly);
   r.broken = coupled_.assembly.comm.global_sum(
       coupled_.assembly.losses.broken); // none while settling: equilibrate() throws
@@ -155,11 +213,13 @@ PileRecord Installation::new_record(const coupling::EnergyBalances& energy_balan
   const double input = start_.assembly.stored() +
                        std::abs(energy_balances.assembly.rigid_wall_work) +
                        std::abs(energy_balances.assembly.gravity - start_.assembly.gravity);
-  const double error = coupling::unexplained(energy_balances, start_);
+  const double error =
+      coupling::unexplained(energy_balances, start_) + head().energies().net();
   r.energy_error = input > 0.0 ? error / input : 0.0;
   r.time_step = coupled_.dt;
   r.stable_step = coupled_.stable_step.limit;
   force_ = {};
+  overlaps_ = {};
   return r;
 }
 

@@ -1,10 +1,11 @@
-/// The installation of a pile in a coupled system at rest: the pile is pushed down at its
-/// penetration rate, and records and frames are written.
+/// The installation of a pile in a coupled system at rest: the pile goes through its loading
+/// stages, and records and frames are written.
 #pragma once
 
 #include "apps/coupled/system_of_case.h"
-#include "apps/pile/penetration_rate.h"
 #include "apps/pile/pile_output.h"
+#include "apps/pile/stage_run.h"
+#include "dem/assembly/overlaps.h"
 #include "dem/io/state/named_numbers.h"
 
 #include <functional>
@@ -27,12 +28,20 @@ public:
 /// Mean pile forces between two records.
 struct MeanForce {
   double tip = 0.0, shaft = 0.0;
+  double head = 0.0, lateral = 0.0; ///< of the head: downwards, along x
   std::size_t n = 0;
 
-  void add(const dem::RigidWall& pile);
+  void add(const dem::RigidWall& pile, const coupling::DrivenPile& head_of_pile);
 };
 
-/// A push of the pile, from rest to rest: depths of the tip [m].
+/// Where a saved installation is.
+struct StagePosition {
+  std::uint64_t n_done = 0;  ///< stages
+  bool is_under_way = false; ///< the next one has begun
+  std::uint64_t n_fixed() const { return n_done + (is_under_way ? 1 : 0); }
+};
+
+/// A penetration, from rest to rest: depths of the tip [m].
 struct Push {
   double start = 0.0; ///< where it starts
   double end = 0.0;   ///< where it is to end
@@ -44,8 +53,8 @@ struct Push {
 /// The pile with its tip at the surface, at rest.
 dem::RigidWall make_pile(const PileCase& c);
 
-/// Pushes the pile down and records forces and energies. Member functions are collective,
-/// except those that only return a value.
+/// Leads the pile through its stages and records forces and energies. Member functions are
+/// collective, except those that only return a value.
 class Installation {
 public:
   /// All arguments must outlive the object.
@@ -55,8 +64,10 @@ public:
 
   /// Whether the state was saved after the penetration began.
   static bool is_in(const dem::State& state) { return state.has("push"); }
-  /// The push in that state. @throws InputError when it is not there
+  /// The last penetration in that state, and where it is in its stages.
+  /// @throws InputError when they are not there
   static Push push_in(const dem::State& state);
+  static StagePosition stages_in(const dem::State& state);
 
   /// Place the pile with its tip at the surface of the system in equilibrium.
   void begin();
@@ -64,14 +75,14 @@ public:
   /// Add the numbers and counts of the penetration to a state. CoupledSystem::save() adds
   /// those of assembly and pile.
   void save(dem::State& state) const;
-  /// Continue from the numbers of save(). Where the push is over and the case goes deeper,
-  /// another push starts. @throws InputError when the state is of another run
+  /// Continue from the numbers of save(). Where a final depth was reached and the case goes
+  /// deeper, another push starts. @throws InputError when the state is of another run
   void load(const dem::State& state);
   /// Set the next record, or frame, after its spacing was changed.
   void space_records_anew();
   void space_frames_anew();
 
-  /// Push the pile down to its final depth, if it is not there.
+  /// Go through the stages that are not done.
   /// @param after_step called between two steps, for checkpoints
   /// @throws Unstable when a step fails or the energy error exceeds 0.01
   void run(const std::function<void()>& after_step);
@@ -85,21 +96,30 @@ public:
   std::size_t n_bonds() const { return n_bonds_; }     ///< of all kinds, at the start
   std::size_t n_between() const { return n_between_; } ///< of these, between particles
   std::size_t n_pushes() const { return n_pushes_; }   ///< the present one included
-  double travelled() const;                            ///< depth of the tip [m]
+  const dem::Overlaps& largest_overlaps() const { return largest_overlaps_; }
+  double travelled() const { return stage_run_.tip_depth(); } ///< depth of the tip [m]
+  const coupling::DrivenPile& head() const { return stage_run_.head(); }
+  const StagePosition& position() const { return position_; }
+  /// "penetration", "stage 2 (hold)".
+  std::string phase() const;
+  std::size_t n_at_capacity() const { return n_at_capacity_; } ///< stages that ended there
 
 private:
   double next_frame() const ///< depth of the tip [m]
   {
-    return rate_.travel() * static_cast<double>(n_frames_) / case_.frames;
+    return case_.travel() * static_cast<double>(n_frames_) / case_.frames;
   }
+  void begin_stage();
+  void run_stage(const std::function<void()>& after_step);
+  void end_stage();
+  /// Returns a line for the user where they grow; mostly none.
+  std::string read_overlaps();
   void count_bonds();
   void frame();
   /// Returns lines for the user; mostly none.
   std::string record();
   PileRecord new_record(const coupling::EnergyBalances& energy_balances);
   std::string now() const;
-
-  void push_further();
 
   /// Every number of a run by its name, to save and load it; `self` may be const.
   template <class Self>
@@ -110,18 +130,22 @@ private:
   const PileCase& case_;
   coupling::CoupledSystem& coupled_;
   std::optional<PileOutput>& output_;
-  PenetrationRate rate_;
+  StageRun stage_run_;
+  StagePosition position_;
+  Push push_;
   coupling::EnergyBalances start_;
   dem::EnergyAlarm energy_alarm_;
   BreakageCount breakage_;
   MeanForce force_;
   PileRecord last_;
   double time_ = 0.0, q_peak_ = 0.0, worst_energy_error_ = 0.0;
-  double next_record_ = 0.0; ///< travel [m]
+  double next_record_ = 0.0; ///< in the measure of the stage: StageRun::position()
   std::size_t n_frames_ = 0; ///< frames that were due so far, the first included
   coupling::InterfaceBalance worst_interface_;
   std::size_t n_bonds_ = 0, n_between_ = 0;
-  std::size_t n_pushes_ = 1;
+  std::size_t n_pushes_ = 0, n_at_capacity_ = 0;
+  dem::Overlaps overlaps_, largest_overlaps_; ///< since the last record, since the start
+  double said_overlap_ = 0.0;                 ///< at which the last line on it was said [-]
 };
 
 } // namespace mergel::apps

@@ -35,6 +35,12 @@ dem::NumbersOf<Self> numbers_of_push(Self& push)
           {"tip depth [m]", &push.tip}};
 }
 
+template <class Self>
+dem::CountsOf<Self> counts_of_position(Self& position)
+{
+  return {{"stages done", &position.n_done}, {"under way", &position.is_under_way}};
+}
+
 } // namespace
 
 template <class Self>
@@ -58,11 +64,23 @@ dem::NumbersOf<Self> Installation::numbers_of(Self& self)
                            {"record: energy error [-]", &r.energy_error},
                            {"record: time step [s]", &r.time_step},
                            {"record: stable step [s]", &r.stable_step}};
+  all.insert(all.end(),
+             {{"sum of head forces since the record [N]", &self.force_.head},
+              {"sum of lateral forces since the record [N]", &self.force_.lateral},
+              {"record: head force [N]", &r.F_head},
+              {"record: lateral head force [N]", &r.F_lateral},
+              {"record: displacement of the head [m]", &r.displacement},
+              {"record: rotation of the head [rad]", &r.rotation},
+              {"overlap of the last line on it [-]", &self.said_overlap_},
+              {"overlap since the record [-]", &self.overlaps_.largest},
+              {"largest overlap [-]", &self.largest_overlaps_.largest},
+              {"record: overlap [-]", &r.overlaps.largest}});
   append(all, "largest ", self.worst_interface_);
   append(all, "record: ", r.interface);
   dem::append_energies(all, "record: ", r.balance);
   dem::append_energies(all, "start: ", self.start_.assembly);
   append_structures(all, "start, structures: ", self.start_.structures);
+  append_structures(all, "record, head: ", r.head);
   dem::append_alarm(all, self.energy_alarm_);
   return all;
 }
@@ -70,7 +88,17 @@ dem::NumbersOf<Self> Installation::numbers_of(Self& self)
 template <class Self>
 dem::CountsOf<Self> Installation::counts_of(Self& self)
 {
+  auto &since = self.overlaps_, &largest = self.largest_overlaps_,
+       &recorded = self.last_.overlaps;
   return {{"steps since the record", &self.force_.n},
+          {"record: stage", &self.last_.stage},
+          {"stages at the bearing capacity", &self.n_at_capacity_},
+          {"overlaps beyond the mark since the record", &since.beyond_mark},
+          {"overlaps beyond the high mark since the record", &since.beyond_high_mark},
+          {"most overlaps beyond the mark", &largest.beyond_mark},
+          {"most overlaps beyond the high mark", &largest.beyond_high_mark},
+          {"record: overlaps beyond the mark", &recorded.beyond_mark},
+          {"record: overlaps beyond the high mark", &recorded.beyond_high_mark},
           {"record: broken bonds", &self.last_.broken},
           {"breakages between particles", &self.breakage_.all},
           {"breakages near the axis", &self.breakage_.near},
@@ -83,10 +111,15 @@ dem::CountsOf<Self> Installation::counts_of(Self& self)
 
 void Installation::save(dem::State& state) const
 {
-  const Push push{rate_.start(), rate_.travel(), travelled()};
+  Push push = push_;
+  if (position_.is_under_way && stage_run_.stage().kind == PileStage::Kind::penetrate)
+    push = {stage_run_.rate().start(), stage_run_.rate().travel(), travelled()};
   dem::save_numbers(state, "push", numbers_of_push(push));
+  dem::save_counts(state, "stages", counts_of_position(position_));
   dem::save_numbers(state, "pile_numbers", numbers_of(*this));
   dem::save_counts(state, "pile_counts", counts_of(*this));
+  dem::save_numbers(state, "stage_numbers", StageRun::numbers_of(stage_run_));
+  dem::save_counts(state, "stage_counts", StageRun::counts_of(stage_run_));
 }
 
 Push Installation::push_in(const dem::State& state)
@@ -96,34 +129,41 @@ Push Installation::push_in(const dem::State& state)
   return push;
 }
 
+StagePosition Installation::stages_in(const dem::State& state)
+{
+  StagePosition position;
+  dem::load_counts(state, "stages", counts_of_position(position));
+  return position;
+}
+
 void Installation::load(const dem::State& state)
 {
   dem::load_numbers(state, "pile_numbers", numbers_of(*this));
   dem::load_counts(state, "pile_counts", counts_of(*this));
-  const Push push = push_in(state);
-  rate_ = PenetrationRate(case_, push.start);
-  if (push.is_over() && travelled() < rate_.travel()) push_further();
-}
-
-/// The pile stands at its old end; what it does from there does not depend on that end.
-void Installation::push_further()
-{
-  rate_ = PenetrationRate(case_, travelled());
-  ++n_pushes_;
-  space_records_anew();
-  space_frames_anew();
+  dem::load_numbers(state, "stage_numbers", StageRun::numbers_of(stage_run_));
+  dem::load_counts(state, "stage_counts", StageRun::counts_of(stage_run_));
+  push_ = push_in(state);
+  position_ = stages_in(state);
+  if (position_.n_fixed() > case_.stages.size())
+    dem::State::refuse("stages", "counts stages that the case does not have");
+  if (position_.is_under_way) {
+    stage_run_.resume(position_.n_done);
+    if (stage_run_.stage().kind == PileStage::Kind::penetrate)
+      push_.end = stage_run_.rate().travel(); // the case may have another final depth
+  } else if (!case_.has_stages() && push_.is_over() && travelled() < case_.travel())
+    position_.n_done = 0; // the pile stands at its old end; another push starts there
 }
 
 void Installation::space_records_anew()
 {
-  next_record_ = case_.record_every * (std::floor(travelled() / case_.record_every) + 1.0);
+  const double every = stage_run_.record_every();
+  next_record_ = every * (std::floor(stage_run_.position() / every) + 1.0);
 }
 
 void Installation::space_frames_anew()
 {
   n_frames_ = 1;
-  while (n_frames_ < static_cast<std::size_t>(case_.frames) && next_frame() <= travelled())
-    ++n_frames_;
+  while (next_frame() <= travelled()) ++n_frames_;
 }
 
 } // namespace mergel::apps

@@ -17,6 +17,11 @@ public:
       : v_(c.velocity), ramp_(0.05 * c.diameter), start_(start), travel_(c.travel())
   {
   }
+  /// Of a stage from `start` to `end`, with a ramp of this length at both [m].
+  PenetrationRate(double v, double ramp, double start, double end)
+      : v_(v), ramp_(ramp), start_(start), travel_(end)
+  {
+  }
   /// Downwards, with the tip at this depth [m/s].
   double velocity(double travelled) const
   {

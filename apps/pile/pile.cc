@@ -1,15 +1,14 @@
-/// mergel pile: installs a pile in bonded rock at a penetration rate.
+/// mergel pile: installs a pile in bonded rock and loads it.
 #include "apps/pile/installation.h"
+#include "apps/pile/pile_restart.h"
 #include "apps/pile/pile_summary.h"
 #include "apps/run/protocol.h"
 #include "apps/run/ranks.h"
 #include "apps/run/step_report.h"
 #include "apps/specimen/specimen.h"
 
-#include <algorithm>
 #include <iostream>
 #include <optional>
-#include <sstream>
 
 namespace mergel::apps {
 
@@ -27,10 +26,21 @@ public:
   }
   std::vector<std::string> free_keys() const override
   {
-    return {"Pile/final depth", "Output/record every", "Output/frames"};
+    return {"Pile/final depth",
+            "Loading/stage N",
+            "Loading/displacement rate",
+            "Loading/force ramp",
+            "Loading/unbalanced-force tolerance",
+            "Loading/largest settlement",
+            "Pile/mass",
+            "Output/record every",
+            "Output/frames"};
   }
 
-  void check_restart(const CaseFile& file, const Restart& restart) const override;
+  void check_restart(const CaseFile& file, const Restart& restart) const override
+  {
+    check_changed_stages(file, restart, case_);
+  }
   std::string what_is_done(const Restart& restart) const override;
 
   void begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm) override;
@@ -39,7 +49,7 @@ public:
   CheckpointScheduler::Position position() const override
   {
     return {coupled_->n_steps, coupled_->time,
-            is_penetrating_ ? "penetration" : "settling"};
+            is_penetrating_ ? installation_->phase() : "settling"};
   }
   void save(dem::State& state) const override;
   void require_files() const override
@@ -63,44 +73,16 @@ private:
   bool is_penetrating_ = false;
 };
 
-/// A length [m] in millimetres, with six digits.
-std::string mm(double x)
-{
-  std::ostringstream out;
-  out << 1e3 * x << " mm";
-  return out.str();
-}
-
-/// Refuse another final depth once the pile slows down for the old or the new one: the
-/// velocity near the end depends on the final depth. At its old end the pile may go deeper.
-void PileJob::check_restart(const CaseFile& file, const Restart& restart) const
-{
-  if (!Installation::is_in(restart.checkpoint.state)) return;
-  const CaseFile::Change* change = find_change(restart, "Pile", "final depth");
-  if (!change) return;
-  const Push push = Installation::push_in(restart.checkpoint.state);
-  const double end = case_.travel();
-  if (push.is_over()) {
-    if (end > push.tip) return;
-    file.refuse("Pile", "final depth",
-                "was " + change->was +
-                    ", where the pile stands in the checkpoint: it can only go deeper. "
-                    "Raise it, or choose an older checkpoint");
-  }
-  if (push.tip <= std::min(push.end, end) - PenetrationRate(case_).ramp()) return;
-  file.refuse("Pile", "final depth",
-              "was " + change->was + ", and in the checkpoint, with the tip at " +
-                  mm(push.tip) +
-                  ", the pile has begun to slow down for one of the two depths: "
-                  "restore it, and raise it when the run is finished; or choose an older "
-                  "checkpoint");
-}
-
 std::string PileJob::what_is_done(const Restart& restart) const
 {
   if (!Installation::is_in(restart.checkpoint.state)) return "";
+  const StagePosition at = Installation::stages_in(restart.checkpoint.state);
+  if (at.n_done < case_.stages.size()) return "";
+  if (case_.has_stages())
+    return "all its loading stages are done. To go on, restart with a further `Loading/" +
+           key_of_pile_stage(case_.stages.size()) + "`.";
   if (Installation::push_in(restart.checkpoint.state).tip < case_.travel()) return "";
-  return "the pile is at its final depth, " + mm(case_.final_depth) +
+  return "the pile is at its final depth, " + mm_text(case_.final_depth) +
          ". To push it further, restart with a larger `Pile/final depth`.";
 }
 
@@ -138,10 +120,11 @@ void PileJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
   if (is_penetrating_) {
     installation_->load(state);
     if (const Push before = Installation::push_in(state);
-        before.is_over() && before.tip < case_.travel())
+        !case_.has_stages() && before.is_over() && before.tip < case_.travel())
       std::cout << "the pile starts again from rest, "
-                << mm(before.tip - case_.tip_height()) << " deep: the curve is that of "
-                << installation_->n_pushes() << " pushes\n";
+                << mm_text(before.tip - case_.tip_height())
+                << " deep: the curve is that of " << installation_->n_pushes() + 1
+                << " pushes\n";
     if (find_change(restart, "Output", "record every")) installation_->space_records_anew();
     if (find_change(restart, "Pile", "final depth") ||
         find_change(restart, "Output", "frames"))

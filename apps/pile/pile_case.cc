@@ -11,6 +11,106 @@ double PileCase::tip_height() const
   return tip == Tip::flat ? 0.0 : 0.5 * diameter / std::tan(0.5 * cone_angle);
 }
 
+std::string key_of_pile_stage(std::size_t k)
+{
+  return "stage " + std::to_string(k + 1);
+}
+
+coupling::PileInertia PileCase::inertia() const
+{
+  const double half = 0.5;
+  return {has_stages() ? half * mass : 1.0, assembly.height, assembly.damping};
+}
+
+namespace {
+
+void declare_loading(CaseFile& file, PileCase& c)
+{
+  const auto section = file.section("Loading");
+  file.numbered(
+      "stage", c.stage_texts,
+      std::string("A loading stage: ") + forms_of_pile_stage +
+          ". Depths are those of the shoulder; a head force is that of the full pile, "
+          "positive downwards. As many stages as needed; the first one penetrates.",
+      "The next loading stage.");
+  file.derived("displacement rate", c.displacement_rate, "m/s", positive,
+               "Pile/penetration rate/10", "Of pull and push, after a ramp.");
+  file.derived("force ramp", c.force_ramp, "s", positive,
+               "Pile/diameter/4 over the penetration rate",
+               "Time in which load and unload change the head force.", "ms");
+  file.derived("unbalanced-force tolerance", c.balance_tolerance, "1", inside(0.0, 1.0),
+               "1e-3",
+               "Unbalanced-force ratio at which hold, load and unload end; looked at every "
+               "100 steps.");
+  file.derived(
+      "largest settlement", c.largest_settlement, "m", positive, "Pile/diameter/10",
+      "Motion along the axis at which a stage with a prescribed head force ends: the "
+      "bearing capacity. The head then holds the pile.",
+      "mm");
+}
+
+/// Read the stages, or the final depth, which stands for one.
+void complete_stages(CaseFile& file, PileCase& c)
+{
+  c.stages.clear();
+  if (std::isfinite(c.final_depth)) {
+    if (c.has_stages())
+      file.refuse("Pile", "final depth",
+                  "is the short form of one stage, and the case gives `Loading/stage " +
+                      std::to_string(c.stage_texts.begin()->first) +
+                      "` too: keep one of the two");
+    c.stages.push_back({PileStage::Kind::penetrate, c.final_depth});
+  } else if (!c.has_stages())
+    file.refuse(
+        "Pile", "final depth",
+        "must be given, or loading stages: write \"set final depth = ...\", for "
+        "example 8.4 mm, or in section Loading \"set stage 1 = penetrate to depth = "
+        "8.4 mm\"");
+  for (const auto& [number, text] : c.stage_texts) {
+    const std::string key = key_of_pile_stage(number - 1);
+    if (number != c.stages.size() + 1)
+      file.refuse("Loading", key,
+                  "there is no `" + key_of_pile_stage(c.stages.size()) +
+                      "`: number the stages from 1 without a gap");
+    try {
+      c.stages.push_back(read_pile_stage(text));
+    } catch (const InputError& e) {
+      file.refuse("Loading", key, e.what());
+    }
+  }
+  const auto fault = find_fault(c.stages, {c.tip_height(), c.diameter, c.assembly.height});
+  if (!fault) return;
+  if (c.has_stages())
+    file.refuse("Loading", key_of_pile_stage(fault->stage), fault->message);
+  file.refuse("Pile", "final depth", fault->message);
+}
+
+/// What the head of the pile needs besides its stages.
+void complete_head(CaseFile& file, PileCase& c)
+{
+  struct Key {
+    const char *section, *name;
+    double value, standard;
+  };
+  constexpr double steel = 7850.0; // [kg/m^3]
+  const double bar = 0.25 * dem::pi * c.diameter * c.diameter * c.assembly.height;
+  for (const Key& key :
+       {Key{"Pile", "mass", c.mass, steel * bar},
+        Key{"Loading", "displacement rate", c.displacement_rate, 0.1 * c.velocity},
+        Key{"Loading", "force ramp", c.force_ramp, 0.25 * c.diameter / c.velocity},
+        Key{"Loading", "unbalanced-force tolerance", c.balance_tolerance, 1e-3},
+        Key{"Loading", "largest settlement", c.largest_settlement, 0.1 * c.diameter}}) {
+    if (c.has_stages())
+      file.derive(key.section, key.name, key.standard);
+    else if (std::isfinite(key.value))
+      file.refuse(key.section, key.name,
+                  "has no effect with `Pile/final depth`: leave it out, or write loading "
+                  "stages");
+  }
+}
+
+} // namespace
+
 void declare(CaseFile& file, PileCase& c)
 {
   declare(file, c.assembly);
@@ -29,8 +129,16 @@ void declare(CaseFile& file, PileCase& c)
     file.former_name("velocity", "penetration rate");
     file.quantity("penetration rate", c.velocity, "m/s", positive,
                   "Downwards, after a ramp of 0.05 diameters.");
-    file.quantity("final depth", c.final_depth, "m", positive,
-                  "Of the shoulder below the surface.", "mm");
+    file.derived(
+        "final depth", c.final_depth, "m", positive, "required without stages",
+        "Of the shoulder below the surface. Short form of `Loading/stage 1 = penetrate "
+        "to depth`; with stages it is left out.",
+        "mm");
+    file.derived(
+        "mass", c.mass, "kg", positive, "that of a steel bar as long as the specimen",
+        "Of the full pile, which moves under a prescribed head force; 7850 kg/m3 over "
+        "`Specimen/height` by default. Its weight is part of the head force.",
+        "g");
     file.number("friction", c.friction, non_negative, "Between pile and particles.");
     file.derived(
         "contact modulus", c.contact_modulus, "Pa", positive, "that of rigid walls",
@@ -39,6 +147,7 @@ void declare(CaseFile& file, PileCase& c)
         "or `Contact/Young's modulus` (hertz).",
         "GPa");
   }
+  declare_loading(file, c);
   const auto section = file.section("Output");
   file.derived("record every", c.record_every, "m", positive, "Pile/diameter/100",
                "Travel of the pile between two lines of history.csv.", "mm");
@@ -57,12 +166,8 @@ void complete(CaseFile& file, PileCase& c)
         "the pile is wider than the DEM region: must be below `Specimen/diameter`, " +
             mm(c.assembly.diameter) +
             "; bonds break up to some two diameters from the axis");
-  const double tip = c.travel();
-  if (tip + c.diameter > c.assembly.height)
-    file.refuse("Pile", "final depth",
-                "the tip would reach " + mm(tip) +
-                    ", less than a diameter above the floor of the DEM region at " +
-                    mm(c.assembly.height) + "; lower it or raise `Specimen/height`");
+  complete_stages(file, c);
+  complete_head(file, c);
   complete(file, c.checkpoints);
   file.derive("Pile", "contact modulus",
               dem::modulus_at_rigid_wall(c.assembly.material.contact));

@@ -33,17 +33,27 @@ const std::vector<std::string> columns{
     "bond plasticity and damage of the half model [J]",
     "friction of the half model [J]",
     "damping of the half model [J]",
+    "stage [-]",
+    "head force of the full pile [N]",
+    "lateral head force of the full pile [N]",
+    "lateral displacement of the head [m]",
+    "rotation of the head [rad]",
+    "head work of the half model [J]",
+    "damping of the half pile [J]",
+    "largest overlap [-]",
+    "pairs that overlap by more than 0.3 [-]",
+    "pairs that overlap by more than 0.5 [-]",
 };
 
 /// Energies are those of what is modelled.
 std::vector<std::string> columns_of(const PileCase& c)
 {
   std::vector<std::string> all = columns;
-  const std::string half = "half model";
+  const std::string half = " of the half ";
   if (!c.assembly.is_half())
     for (std::string& name : all)
       if (const auto at = name.find(half); at != std::string::npos)
-        name.replace(at, half.size(), "full model");
+        name.replace(at, half.size(), " of the full ");
   return all;
 }
 
@@ -111,7 +121,17 @@ void PileOutput::record(const PileRecord& r)
                 e.bonds + e.contacts + e.walls + e.mirror,
                 e.plastic + e.breakage_release,
                 e.slip,
-                e.damping});
+                e.damping,
+                static_cast<double>(r.stage),
+                r.F_head,
+                r.F_lateral,
+                r.displacement,
+                r.rotation,
+                r.head.applied_work,
+                r.head.damping,
+                r.overlaps.largest,
+                static_cast<double>(r.overlaps.beyond_mark),
+                static_cast<double>(r.overlaps.beyond_high_mark)});
 }
 
 void PileOutput::frame(double time, const dem::Assembly& assembly,
@@ -123,7 +143,7 @@ void PileOutput::frame(double time, const dem::Assembly& assembly,
   const dem::RigidWall& pile = assembly.rigid_walls.front();
   const auto write_pile =
       assembly.mirrors.empty() ? dem::write_revolution : dem::write_half_revolution;
-  write_pile(frames_.file(2), std::get<dem::Revolution>(pile.shape), pile.x,
+  write_pile(frames_.file(2), std::get<dem::Revolution>(pile.shape), pile.x, pile.rotation,
              2.0 * diameter_);
   dem::replace_file(frames_.file(3), [&](const std::filesystem::path& path) {
     far_field_of(coupled).write_vtu(path);

@@ -4,6 +4,7 @@
 #include "apps/coupled/system_of_case.h"
 #include "apps/pile/pile_case.h"
 #include "apps/run/frames.h"
+#include "dem/assembly/overlaps.h"
 #include "dem/io/history.h"
 
 namespace mergel::apps {
@@ -26,6 +27,12 @@ struct PileRecord {
   /// Of the half or full model; pile work, slip, damping and bond losses since the pile began to
   /// move.
   dem::EnergyBalance balance;
+  std::uint64_t stage = 1; ///< from 1
+  double F_head = 0.0;     ///< of the head, downwards, mean since the last record [N]
+  double F_lateral = 0.0;  ///< of the head along x, the same [N]
+  double displacement = 0.0, rotation = 0.0; ///< of the pushed point along x [m]; [rad]
+  coupling::StructureEnergies head;          ///< of the head and its pile, half model
+  dem::Overlaps overlaps;                    ///< largest since the last record
 };
 
 class PileOutput {

@@ -32,6 +32,17 @@ void add_figures(Summary& s, const Installation& run,
   s.number("largest q_c [Pa]", run.peak());
   s.number("tip force of the full pile [N]", r.F_tip);
   s.number("shaft force of the full pile [N]", r.F_shaft);
+  s.count("stages done [-]", run.position().n_done);
+  s.count("stages that ended at the bearing capacity [-]", run.n_at_capacity());
+  s.number("head force of the full pile [N]", r.F_head);
+  s.number("lateral head force of the full pile [N]", r.F_lateral);
+  s.number("lateral displacement of the head [m]", r.displacement);
+  s.number("rotation of the head [rad]", r.rotation);
+  s.number("largest overlap [-]", run.largest_overlaps().largest);
+  s.count("most pairs that overlap by more than 0.3 [-]",
+          run.largest_overlaps().beyond_mark);
+  s.count("most pairs that overlap by more than 0.5 [-]",
+          run.largest_overlaps().beyond_high_mark);
   s.count("bonds [-]", run.n_bonds());
   s.count("bonds broken [-]", r.broken);
   s.count("bonds between particles [-]", run.n_between());
@@ -90,6 +101,15 @@ void summarise(Summary& summary, const PileCase& c, const Installation& run,
   out << "pile at " << 1e3 * r.depth << " mm (" << r.depth / c.diameter << " D_p): q_c "
       << 1e-6 * r.q_c << " MPa, largest " << 1e-6 * run.peak() << " MPa; tip " << r.F_tip
       << " N, shaft " << r.F_shaft << " N (full pile)\n";
+  const dem::Overlaps& overlaps = run.largest_overlaps();
+  if (c.has_stages())
+    out << run.position().n_done << " loading stages; head force " << r.F_head
+        << " N, lateral " << r.F_lateral << " N at " << 1e3 * r.displacement << " mm and "
+        << 1e3 * r.rotation << " mrad (full pile)\n";
+  if (overlaps.largest > dem::Overlaps::high_mark)
+    out << "largest overlap of two particles " << overlaps.largest
+        << " of the smaller radius; at most " << overlaps.beyond_high_mark
+        << " pairs beyond " << dem::Overlaps::high_mark << " at a time\n";
   if (run.n_pushes() > 1)
     out << "the pile was pushed " << run.n_pushes()
         << " times, and slowed down at the end of each push\n";

@@ -11,7 +11,7 @@ TEST_CASE("A second push speeds up from where the first ended as the first did",
   c.diameter = 2.0;
   c.cone_angle = 0.5 * mergel::dem::pi; // the cone is as high as its radius
   c.velocity = 3.0;
-  c.final_depth = 9.0;
+  c.stages = {{PileStage::Kind::penetrate, 9.0}};
   const PenetrationRate first(c);
   REQUIRE(first.travel() == Approx(10.0));
   CHECK(first.velocity(0.0) == Approx(0.03));  // 1 %, so that the pile starts to move
@@ -20,7 +20,7 @@ TEST_CASE("A second push speeds up from where the first ended as the first did",
   CHECK(first.velocity(9.975) == Approx(1.5));
   CHECK(first.velocity(10.0) == Approx(0.03));
 
-  c.final_depth = 19.0;
+  c.stages.front().target = 19.0;
   const PenetrationRate second(c, 10.0);
   for (const double s : {0.0, 0.01, 0.025, 0.2, 5.0, 9.95, 10.0})
     CHECK(second.velocity(10.0 + s) == Approx(first.velocity(s)).epsilon(1e-9));
