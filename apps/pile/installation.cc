@@ -179,7 +179,7 @@ std::string Installation::now() const
 
 PileRecord Installation::new_record(const coupling::EnergyBalances& energy_balances)
 {
-  const double to_full = case_.assembly.is_half() ? 2.0 : 1.0;
+  const double to_full = 1.0 / case_.modelled_share();
   const double area = 0.25 * dem::pi * case_.diameter * case_.diameter;
   PileRecord r;
   r.time = time_;
@@ -189,8 +189,8 @@ PileRecord Installation::new_record(const coupling::EnergyBalances& energy_balan
   r.F_shaft = to_full * force_.shaft / static_cast<double>(force_.n);
   r.q_c = r.F_tip / area;
   r.stage = position_.n_done + 1;
-  r.F_head = half_to_full * force_.head / static_cast<double>(force_.n);
-  r.F_lateral = half_to_full * force_.lateral / static_cast<double>(force_.n);
+  r.F_head = to_full * force_.head / static_cast<double>(force_.n);
+  r.F_lateral = to_full * force_.lateral / static_cast<double>(force_.n);
   r.displacement = head().displacement(coupled_.assembly.rigid_walls.front());
   r.rotation = head().rotation();
   r.head = head().energies();

@@ -18,8 +18,7 @@ std::string key_of_pile_stage(std::size_t k)
 
 coupling::PileInertia PileCase::inertia() const
 {
-  const double half = 0.5;
-  return {has_stages() ? half * mass : 1.0, assembly.height, assembly.damping};
+  return {has_stages() ? modelled_share() * mass : 1.0, assembly.height, assembly.damping};
 }
 
 namespace {

@@ -43,7 +43,9 @@ struct PileCase {
   double tip_at_end(const PileStage& stage) const { return stage.target + tip_height(); }
   /// The same of the first stage: of the final depth, without stages [m].
   double travel() const { return tip_at_end(stages.front()); }
-  /// Of the part of the pile that is modelled, its half.
+  /// How much of the pile, and of its forces, is modelled [-].
+  double modelled_share() const { return assembly.is_half() ? 0.5 : 1.0; }
+  /// Of that part.
   coupling::PileInertia inertia() const;
 };
 

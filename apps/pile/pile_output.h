@@ -31,7 +31,7 @@ struct PileRecord {
   double F_head = 0.0;     ///< of the head, downwards, mean since the last record [N]
   double F_lateral = 0.0;  ///< of the head along x, the same [N]
   double displacement = 0.0, rotation = 0.0; ///< of the pushed point along x [m]; [rad]
-  coupling::StructureEnergies head;          ///< of the head and its pile, half model
+  coupling::StructureEnergies head;          ///< of the head and its pile, as modelled
   dem::Overlaps overlaps;                    ///< largest since the last record
 };
 

@@ -14,8 +14,6 @@ namespace {
 using coupling::HeadControl;
 using Kind = PileStage::Kind;
 
-constexpr double half_to_full = 2.0;
-constexpr double full_to_half = 0.5;
 /// Steps in which a stage must find its equilibrium.
 constexpr std::uint64_t most_steps = 200'000;
 /// Records of a stage that is short.
@@ -35,11 +33,11 @@ void StageRun::begin(std::size_t stage)
   largest_force_ = std::max(largest_force_, std::abs(force_));
   const PileStage& s = this->stage();
   if (s.is_by_force()) {
-    const double F = full_to_half * s.target;
+    const double F = case_.modelled_share() * s.target;
     if (s.kind == Kind::unload ? F >= force_ : F <= force_)
       throw CollectiveFailure(
           "stage " + std::to_string(stage_ + 1) + ", " + name_of(s) +
-          ": the head force is " + dem::shortest(half_to_full * force_) +
+          ": the head force is " + dem::shortest(force_ / case_.modelled_share()) +
           " N where it begins, so it would be " +
           (s.kind == Kind::unload ? "a loading" : "an unloading") +
           "; continue with another `Loading/" + key_of_pile_stage(stage_) + "`");
@@ -99,8 +97,8 @@ coupling::HeadTarget StageRun::target() const
     break;
   case Kind::unload:
   case Kind::load:
-    to.force +=
-        (full_to_half * s.target - force_) * std::min(1.0, time_ / case_.force_ramp);
+    to.force += (case_.modelled_share() * s.target - force_) *
+                std::min(1.0, time_ / case_.force_ramp);
     break;
   case Kind::hold:
     break;
@@ -220,7 +218,7 @@ std::string StageRun::outcome() const
   out << "in " << 1e3 * time_ << " ms, " << 1e3 * (tip_depth() - tip_) << " mm deeper";
   if (has_capacity_)
     out << "; the bearing capacity: at `Loading/largest settlement` the head force was "
-        << half_to_full * head_.head_force(pile()) << " N";
+        << head_.head_force(pile()) / case_.modelled_share() << " N";
   return out.str();
 }
 

@@ -83,7 +83,7 @@ private:
   std::size_t stage_ = 0;
   double time_ = 0.0;          ///< since the start of the stage [s]
   double tip_ = 0.0, x_ = 0.0; ///< at its start [m]
-  double force_ = 0.0;         ///< at its start, half model [N]
+  double force_ = 0.0;         ///< at its start, as modelled [N]
   double largest_force_ = 0.0; ///< so far, of all stages [N]
   std::uint64_t n_steps_ = 0;
   bool has_capacity_ = false;
