@@ -4,6 +4,7 @@
 #include "dem/error.h"
 #include "dem/io/assembly_fields.h"
 #include "dem/io/atomic_file.h"
+#include "dem/version.h"
 
 #include <cstdio>
 
@@ -146,7 +147,7 @@ void PileOutput::frame(double time, const dem::Assembly& assembly,
   write_pile(frames_.file(2), std::get<dem::Revolution>(pile.shape), pile.x, pile.rotation,
              2.0 * diameter_);
   dem::replace_file(frames_.file(3), [&](const std::filesystem::path& path) {
-    far_field_of(coupled).write_vtu(path);
+    far_field_of(coupled).write_vtu(path, dem::program_text());
   });
   frames_.add(time);
 }

@@ -2,6 +2,7 @@
 
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "dem/version.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -15,12 +16,14 @@
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
+#include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUtilities.h>
@@ -89,6 +92,10 @@ void add_fields(const std::vector<Field>& fields, std::size_t n, const fs::path&
 /// that its last buffer reached the disk.
 void write(const fs::path& file, vtkPolyData* data)
 {
+  vtkNew<vtkStringArray> made_by;
+  made_by->SetName("made by");
+  made_by->InsertNextValue(program_text());
+  data->GetFieldData()->AddArray(made_by);
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(data);
   writer->SetDataModeToAppended();

@@ -1,8 +1,9 @@
 /// Fields for ParaView: VTK XML files and their time series.
 ///
 /// Points and values are Float64; data are appended, raw and LZ4-compressed, so that a
-/// reader gets back the same bits. Every file is written under a temporary name and renamed
-/// (dem/io/atomic_file.h). The folder must exist.
+/// reader gets back the same bits. The field data "made by" name the program
+/// (dem/version.h), and nothing that differs between two runs of it. Every file is written
+/// under a temporary name and renamed (dem/io/atomic_file.h). The folder must exist.
 ///
 /// All writers throw NumericalError, naming file and reason, when the file cannot be
 /// written (a full disk included), and std::logic_error when sizes or indices do not fit.

@@ -360,9 +360,9 @@ std::string FarField::summary() const
   return s.str();
 }
 
-void FarField::write_vtu(const std::string& path) const
+void FarField::write_vtu(const std::string& path, const std::string& made_by) const
 {
-  fem::write_vtu(parts_->solid, motion().u, motion().v, path);
+  fem::write_vtu(parts_->solid, motion().u, motion().v, path, made_by);
 }
 
 } // namespace mergel::fem

@@ -135,7 +135,7 @@ public:
   std::string summary() const;
 
   /// Displacement, velocity and stress (initial stress included); see fem/solid/output.h.
-  void write_vtu(const std::string& path) const;
+  void write_vtu(const std::string& path, const std::string& made_by = "") const;
 
 private:
   struct Parts;

@@ -10,8 +10,24 @@
 
 namespace mergel::fem {
 
+namespace {
+
+/// Add a text as field data, which deal.II does not write: the codes of its letters, ended by 0.
+void add_field_data(std::string& vtu, const std::string& name, const std::string& text)
+{
+  const std::string before = "<UnstructuredGrid>";
+  const auto at = vtu.find(before);
+  if (at == std::string::npos) throw std::logic_error("write_vtu: no grid in the file");
+  std::string data = "\n<FieldData>\n<DataArray type=\"String\" Name=\"" + name +
+                     "\" NumberOfTuples=\"1\" format=\"ascii\">\n";
+  for (const char c : text) data += std::to_string(static_cast<unsigned char>(c)) + " ";
+  vtu.insert(at + before.size(), data + "0\n</DataArray>\n</FieldData>");
+}
+
+} // namespace
+
 void write_vtu(const ElasticSolid& solid, const NodalField& u, const NodalField& v,
-               const std::string& path)
+               const std::string& path, const std::string& made_by)
 {
   using dealii::DataComponentInterpretation::component_is_part_of_tensor;
   using dealii::DataComponentInterpretation::component_is_part_of_vector;
@@ -52,8 +68,10 @@ void write_vtu(const ElasticSolid& solid, const NodalField& u, const NodalField&
   // Not directly to the file: deal.II reports a failed stream with a long text and a stack.
   std::ostringstream text;
   out.write_vtu(text);
+  std::string vtu = text.str();
+  if (!made_by.empty()) add_field_data(vtu, "made by", made_by);
   std::ofstream file(path, std::ios::binary);
-  file << text.str();
+  file << vtu;
   file.close();
   if (!file)
     throw std::runtime_error("far field output " + path +

@@ -2,6 +2,7 @@
 
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "dem/version.h"
 #include "tests/support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -19,11 +20,13 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
 using namespace mergel;
@@ -181,6 +184,22 @@ TEST_CASE("a surface keeps its triangles and fields per point", "[unit][dem]")
   CHECK(same_bits(data, x));
   CHECK(corners<3>(data->GetPolys()) == triangles);
   CHECK(same_bits(data->GetPointData()->GetArray("force"), force));
+}
+
+TEST_CASE("every file names the program that made it, and no file differs from run to run",
+          "[unit][dem]")
+{
+  const TemporaryFolder folder;
+  write_points(folder.path / "a.vtp", positions(2), {});
+  write_points(folder.path / "b.vtp", positions(2), {});
+  const auto data = read(folder.path / "a.vtp");
+  auto* const made_by =
+      vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("made by"));
+  REQUIRE(made_by != nullptr);
+  REQUIRE(made_by->GetNumberOfValues() == 1);
+  CHECK(made_by->GetValue(0) == program_text());
+  CHECK(program_text().starts_with("mergel " + std::string(version().number)));
+  CHECK(contents(folder.path / "a.vtp") == contents(folder.path / "b.vtp"));
 }
 
 TEST_CASE("an empty set gives a readable file with the names of the fields", "[unit][dem]")

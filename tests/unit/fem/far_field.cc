@@ -234,13 +234,17 @@ TEST_CASE("Far-field output is written complete under its name, without other fi
   const auto folder =
       std::filesystem::temp_directory_path() / ("mergel_fem_" + std::to_string(getpid()));
   std::filesystem::create_directory(folder);
-  field.write_vtu(folder / "far_field.vtu");
+  field.write_vtu(folder / "far_field.vtu", "a b");
   std::ifstream file(folder / "far_field.vtu");
   std::stringstream text;
   text << file.rdbuf();
   CHECK_THAT(text.str(), Catch::Contains("Name=\"stress\"") &&
                              Catch::Contains("Name=\"displacement\"") &&
                              Catch::Contains("</VTKFile>"));
+  // A text as the codes of its letters: a, a blank, b, the end.
+  CHECK_THAT(text.str(),
+             Catch::Contains("Name=\"made by\" NumberOfTuples=\"1\" format=\"ascii\">"
+                             "\n97 32 98 0\n"));
   CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);
   std::filesystem::remove_all(folder);
   CHECK_THROWS_WITH(field.write_vtu(folder / "far_field.vtu"), Catch::Contains("writable"));
