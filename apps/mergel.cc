@@ -2,6 +2,10 @@
 
 #include "apps/case/walltime.h"
 #include "apps/case/words.h"
+#include "apps/help/completion.h"
+#include "apps/help/man_page.h"
+#include "apps/help/pager.h"
+#include "apps/help/pages.h"
 #include "apps/run/checkpoint_scheduler.h"
 #include "apps/run/command_line.h"
 #include "apps/run/jobs.h"
@@ -27,77 +31,6 @@ namespace {
 using namespace mergel;
 using namespace mergel::apps;
 
-void print_help(std::ostream& out)
-{
-  out << "mergel: coupled DEM-FEM solver for weak, porous, bonded rock.\n\n"
-         "usage: mergel <job> CASE.prm [--set \"Section/key=value\"]... [--output DIR] "
-         "[--overwrite]\n       mergel <job> [CASE.prm] --restart DIR [--walltime 4h]\n"
-         "       mergel bench [options]\n       mergel compare DIR...\n       mergel info "
-         "PATH\n\njobs:\n";
-  for (const Job& job : jobs) {
-    std::string name = job.name;
-    name.resize(std::max<std::size_t>(name.size(), 9), ' ');
-    out << "  " << name << "  " << job.sentence << "\n";
-  }
-  out << "\nexample:\n"
-         "  mergel pile apps/cases/pile_small.prm --set \"Pile/friction=0.3\" --output "
-         "results/rough\n\n"
-         "mergel <job> --help prints every key of its case; mergel --version the "
-         "version.\n";
-}
-
-const char* const help_on_checkpoints =
-    R"(  --restart DIR|FILE         continue a run from the newest good checkpoint of its
-                             results folder, or from this checkpoint; begin a run where
-                             there is none yet; take a finished run further, where the
-                             case has a later end. CASE.prm may be left out
-  --walltime TIME            write a checkpoint and stop before this time is over (4h,
-                             30 min, 4:00:00, 1-12:00:00)
-
-SIGUSR1 makes the run write a checkpoint. SIGTERM, Ctrl-C (SIGINT) and a closed terminal
-(SIGHUP) make it write one and stop, exit code 2; a second Ctrl-C ends it at once.
-
-)";
-const char* const help_without_checkpoints =
-    R"(  --restart DIR              begin again in the results folder of a run that did not
-                             finish; CASE.prm may be left out
-
-The job writes no checkpoints: SIGTERM, SIGINT and SIGHUP end it at once, and --walltime is
-refused. A repeated run gives the same results, bit for bit.
-
-)";
-
-void print_job_help(const Job& job, std::ostream& out)
-{
-  out << "mergel " << job.name << ": " << job.sentence << "\n\nusage: mergel " << job.name;
-  if (!job.reads_case()) {
-    out << " [options]\n";
-    job.help(out);
-    return;
-  }
-  out << " CASE.prm [options]\n"
-         "  --set \"Section/key=value\"  override a key of the case file; may be repeated\n"
-         "  --output DIR               results folder; default results/<name of the case>\n"
-         "  --overwrite                replace an earlier run in that folder\n";
-  out << (job.writes_checkpoints ? help_on_checkpoints : help_without_checkpoints);
-  out << "Keys of CASE.prm, by section. A value is written with its unit; any unit of its "
-         "dimension is\naccepted.\n\n";
-  job.help(out);
-}
-
-const Job& find_job(const std::string& name)
-{
-  std::vector<std::string> names;
-  for (const Job& job : jobs) {
-    if (name == job.name) return job;
-    names.push_back(job.name);
-  }
-  const std::string meant = nearest(name, names);
-  throw InputError("mergel: unknown job \"" + name + "\". " +
-                   (meant.empty() ? "Jobs are " + joined(names, ", ") + "."
-                                  : "Did you mean \"" + meant + "\"?"));
-}
-
 std::vector<std::string> jobs_with_checkpoints()
 {
   std::vector<std::string> names;
@@ -106,10 +39,12 @@ std::vector<std::string> jobs_with_checkpoints()
   return names;
 }
 
-/// @throws InputError, or CLI::CallForHelp
-JobOptions parse_case(const Job& job, std::vector<std::string> arguments)
+/// @param command_line whole, with the name of program and job @throws InputError
+JobOptions parse_case(const Job& job, const std::vector<std::string>& command_line)
 {
   JobOptions options;
+  options.command = command_line;
+  std::vector<std::string> arguments(command_line.begin() + 2, command_line.end());
   CLI::App app;
   app.add_option("CASE.prm", options.case_file);
   app.add_option("--set", options.set)->expected(1)->take_all();
@@ -137,48 +72,89 @@ JobOptions parse_case(const Job& job, std::vector<std::string> arguments)
   return options;
 }
 
+bool has(const std::vector<std::string>& words, const std::string& word)
+{
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// What is no job: `help`, `version` and their relatives. @return whether it was one
+bool show_page(const std::string& first, const std::vector<std::string>& rest)
+{
+  const auto at_most = [&](std::size_t n) {
+    require(rest.size() <= n, "mergel " + first + ": \"" +
+                                  (rest.empty() ? "" : rest.back()) +
+                                  "\" is one word too many. See mergel --help.");
+  };
+  if (first == "help" && !rest.empty()) {
+    at_most(1);
+    show(help_of(find_job(rest.front())));
+  } else if (first == "help" || first == "--help" || first == "-h") {
+    at_most(0);
+    show(help_of_program());
+  } else if (first == "version" || first == "--version" || first == "-V") {
+    at_most(0);
+    show(version_text());
+  } else if (first == "man") {
+    at_most(1);
+    show(rest.empty() ? man_page() : man_page(find_job(rest.front())));
+  } else if (first == "completion") {
+    at_most(1);
+    require(!rest.empty() && rest.front() == "bash",
+            "mergel completion: the shell must be given, and is bash: mergel completion "
+            "bash.");
+    show(bash_completion());
+  } else
+    return false;
+  return true;
+}
+
+/// --help, --help --json and --template. @return whether one was given
+bool show_page(const Job& job, const std::vector<std::string>& arguments)
+{
+  const bool asks_help = has(arguments, "--help") || has(arguments, "-h");
+  if (asks_help)
+    show(has(arguments, "--json") ? json_of(job) : help_of(job));
+  else if (has(arguments, "--template"))
+    show(template_of(job));
+  else if (has(arguments, "--json"))
+    throw InputError("mergel " + std::string(job.name) +
+                     ": --json belongs to --help: mergel " + job.name + " --help --json.");
+  else
+    return false;
+  return true;
+}
+
 int run(int argc, char** argv)
 {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
-  const std::string first = arguments.empty() ? "" : arguments.front();
-  if (first == "--help" || first == "-h") {
-    print_help(std::cout);
-    if (launched_rank() <= 0) require_printed();
-    return exit_done;
+  const std::vector<std::string> command_line(argv, argv + argc);
+  const std::string first = argc < 2 ? "" : command_line[1];
+  if (first.empty()) {
+    if (launched_rank() <= 0) std::cerr << help_of_program() << '\n';
+    throw InputError("mergel: no job is given. See mergel --help.");
   }
-  if (first == "--version") {
-    std::cout << "mergel " MERGEL_VERSION "\n";
-    if (launched_rank() <= 0) require_printed();
-    return exit_done;
-  }
-  if (first.empty()) throw InputError("mergel: no job is given. See mergel --help.");
+  const std::vector<std::string> rest(command_line.begin() + 2, command_line.end());
+  if (show_page(first, rest)) return exit_done;
   if (first.starts_with('-'))
     throw InputError("mergel: \"" + first +
                      "\" comes before the name of the job. See mergel --help.");
 
   const Job& job = find_job(first);
-  const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+  if (show_page(job, rest)) return exit_done;
   std::function<int()> start;
-  try {
-    if (job.reads_case())
-      start = [run = std::get<RunCase>(job.run), options = parse_case(job, rest)] {
-        JobOptions agreed = options;
-        std::string output = options.output.string(); // as found by the first rank
-        share(output);
-        agreed.output = output;
-        return run(agreed);
-      };
-    else
-      start = [run = std::get<ReadArguments>(job.run)(rest)] {
-        const int code = run();
-        on_first_rank([] { require_printed(); });
-        return code;
-      };
-  } catch (const CLI::CallForHelp&) {
-    print_job_help(job, std::cout);
-    if (launched_rank() <= 0) require_printed();
-    return exit_done;
-  }
+  if (job.reads_case())
+    start = [run = std::get<RunCase>(job.run), options = parse_case(job, command_line)] {
+      JobOptions agreed = options;
+      std::string output = options.output.string(); // as found by the first rank
+      share(output);
+      agreed.output = output;
+      return run(agreed);
+    };
+  else
+    start = [run = std::get<ReadArguments>(job.run)(rest)] {
+      const int code = run();
+      on_first_rank([] { require_printed(); });
+      return code;
+    };
 
   fem::Runtime runtime(argc, argv);
   ignore_signals_again();

@@ -1,6 +1,7 @@
 #include "coupling/coupled_system.h"
 
 #include "dem/assembly/distribute.h"
+#include "dem/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -170,7 +171,7 @@ void CoupledSystem::restore_masses()
 
 std::string CoupledSystem::where() const
 {
-  return " (step " + std::to_string(n_steps) + ", t = " + std::to_string(1e3 * time) +
+  return " (step " + std::to_string(n_steps) + ", t = " + dem::shortest(1e3 * time) +
          " ms)";
 }
 

@@ -61,6 +61,7 @@ set(fem_floors
 set(apps_floors
     "case"
     "run: case"
+    "help: case run"
     "laboratory: case"
     "specimen: case run"
     "coupled: case run specimen"
@@ -70,6 +71,7 @@ set(apps_floors
     "brazilian: case run specimen coupled"
     "bond: case run"
     "sample: case run specimen coupled pile element triaxial brazilian"
+    "check: case run sample"
     "bench: case run"
     "info: case run pile element triaxial brazilian"
     "compare: case run laboratory"

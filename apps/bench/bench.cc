@@ -299,13 +299,16 @@ const char* name_of(Workload w)
   return w == Workload::bonded_block ? "W1" : "W2";
 }
 
+constexpr std::size_t width_of_name = 45; ///< of the report, a blank after the longest
+constexpr const char* checksum_name = "checksum of x, v, omega";
+
 void print_figure(const Figure& f)
 {
   char text[32];
   std::snprintf(text, sizeof text, "%.*f", f.digits, f.value);
   std::string name = f.name;
-  name.resize(std::max<std::size_t>(name.size(), 45), ' ');
-  std::cout << "  " << name << text << (f.unit[0] == '-' ? "" : " ")
+  name.resize(std::max(name.size(), width_of_name), ' ');
+  std::cout << "  " << name << ' ' << text << (f.unit[0] == '-' ? "" : " ")
             << (f.unit[0] == '-' ? "" : f.unit) << '\n';
 }
 
@@ -315,8 +318,9 @@ void print(const WorkloadSpec& spec, const Figures& f)
             << f.n_steps << " steps, seed " << spec.seed << ", " << f.n_ranks
             << (f.n_ranks == 1 ? " rank\n" : " ranks\n");
   for (const Figure& figure : figures(spec, f)) print_figure(figure);
-  std::cout << "  checksum of x, v, omega                      "
-            << dem::hexadecimal(f.checksum) << std::endl;
+  std::string name = checksum_name;
+  name.resize(width_of_name, ' ');
+  std::cout << "  " << name << ' ' << dem::hexadecimal(f.checksum) << std::endl;
 }
 
 /// A line of the CSV file and its header.

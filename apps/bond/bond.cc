@@ -1,7 +1,9 @@
 /// mergel bond: one bonded pair of particles along any path of u_n, u_s and theta.
 #include "apps/case/material_keys.h"
+#include "apps/case/words.h"
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"
+#include "apps/run/plan.h"
 #include "apps/run/ranks.h"
 #include "apps/run/restart.h"
 #include "apps/run/results.h"
@@ -230,7 +232,8 @@ private:
 };
 
 void write_summary(const std::filesystem::path& file, const dem::BondLaw& law,
-                   const Record& record, const dem::ControlledPair& pair)
+                   const Record& record, const dem::ControlledPair& pair,
+                   const Provenance& made)
 {
   const dem::SingleStrengths strong = std::visit(
       [&](const auto& bond) { return single_strengths(bond, pair.shape()); }, law);
@@ -250,6 +253,7 @@ void write_summary(const std::filesystem::path& file, const dem::BondLaw& law,
   s.number("dissipated [J]", pair.dissipated());
   s.number("energy error [-]", record.energy_error());
   s.count("steps [-]", record.n_records - 1);
+  s.json("made by", made.json());
   dem::replace_file(file, s.object());
 }
 
@@ -263,18 +267,36 @@ void print_summary(const std::filesystem::path& folder, const Record& record)
             << "\nenergy error: work minus stored and dissipated energy is at most "
             << 100.0 * record.energy_error() << " % of these, in " << record.n_records - 1
             << " steps\nresults: " << folder.string()
-            << " (history.csv, summary.json); pictures: mergel-view " << folder.string()
-            << "\n";
+            << " (history.csv, summary.json); pictures: mergel-view "
+            << in_shell(folder.string()) << "\n";
 }
 
 } // namespace
 
-void help_bond(std::ostream& out)
+void keys_of_bond(const UseKeys& use)
 {
   CaseFile file;
   BondCase c;
   declare(file, c);
-  file.help(out);
+  use(file);
+}
+
+Plan plan_bond(const JobOptions& options)
+{
+  CaseFile file;
+  BondCase c;
+  declare(file, c);
+  file.read(options.case_file, options.set);
+  refuse_impossible(file, c.bond, c.contact);
+  Plan plan;
+  plan.n_particles = 2.0;
+  plan.particles_by = "one bonded pair";
+  plan.bonds_per_particle = 0.5;
+  plan.n_steps =
+      static_cast<double>(corners(file, c).size()) * static_cast<double>(c.steps_per_stage);
+  plan.steps_by = "corners of the path times `steps per stage`";
+  remark_on_materials(plan.unusual, c.bond, c.contact);
+  return plan;
 }
 
 namespace {
@@ -286,14 +308,19 @@ void load_bond(const JobOptions& options)
   BondCase c;
   declare(file, c);
   read_case(file, options, std::nullopt);
+  refuse_impossible(file, c.bond, c.contact);
   const auto path = corners(file, c);
   OutputFolder folder = folder_to_begin_in(options);
   const auto inputs = inputs_of(options, std::nullopt, {c.path});
-  begin_folder(folder, inputs, file);
+  const Provenance made = provenance(options);
+  begin_folder(folder, inputs, file, made);
 
   const dem::BondLaw law = c.bond.chosen();
   dem::ControlledPair pair(
       {c.radius, c.radius * c.radius_ratio, c.S, c.gap, {law, c.contact.chosen()}});
+  Remarks unusual;
+  remark_on_materials(unusual, c.bond, c.contact);
+  std::cout << lines_of(unusual);
   Record record(folder.path() / "history.csv");
   record.add(pair);
   for (const dem::RelativeMotion& corner : path) {
@@ -308,7 +335,7 @@ void load_bond(const JobOptions& options)
       record.add(pair);
     }
   }
-  write_summary(folder.path() / "summary.json", law, record, pair);
+  write_summary(folder.path() / "summary.json", law, record, pair, made);
   record.require_in_place();
   require_results(folder.path(), "bond");
   print_summary(folder.path(), record);

@@ -1,5 +1,6 @@
 /// mergel brazilian: presses a disc of bonded rock across its diameter between two plates.
 #include "apps/brazilian/brazilian_output.h"
+#include "apps/brazilian/brazilian_plan.h"
 #include "apps/brazilian/brazilian_summary.h"
 #include "apps/run/progress.h"
 #include "apps/run/protocol.h"
@@ -26,6 +27,7 @@ public:
   void declare(CaseFile& file) override { apps::declare(file, case_); }
   void complete(CaseFile& file) override { apps::complete(file, case_); }
   const CheckpointKey& checkpoints() const override { return case_.checkpoints; }
+  Remarks unusual() const override { return apps::unusual(case_); }
   std::vector<std::filesystem::path> inputs() const override
   {
     return {case_.specimen.sample, case_.specimen.table};
@@ -186,10 +188,10 @@ void BrazilianJob::summarise(Summary& summary, const Work& work) const
 
 } // namespace
 
-void help_brazilian(std::ostream& out)
+void keys_of_brazilian(const UseKeys& use)
 {
   BrazilianJob job;
-  print_keys(job, out);
+  show_keys(job, use);
 }
 
 int run_brazilian(const JobOptions& options)

@@ -1,6 +1,7 @@
 #include "apps/brazilian/brazilian_case.h"
 
 #include "apps/case/motion_keys.h"
+#include "apps/case/unusual.h"
 
 namespace mergel::apps {
 
@@ -80,6 +81,7 @@ void complete(CaseFile& file, BrazilianCase& c)
   complete(file, c.specimen, c.material.contact);
   if (c.specimen.upscaling != SpecimenKeys::Upscaling::uniform)
     file.refuse("Specimen", "upscaling", "a Brazilian test takes `uniform`");
+  if (!c.specimen.is_granular()) refuse_impossible(file, c.bond, c.contact);
   complete(file, c.checkpoints);
   if (!(c.record_every < c.strain_limit))
     file.refuse("Output", "record every", "must be below `Loading/strain limit`");

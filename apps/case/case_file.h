@@ -225,10 +225,12 @@ public:
   /// Write the complete case as it was read, defaults included: a case file that sets every
   /// variable to the same bits. The same case gives the same text. An existing file is
   /// replaced.
+  /// @param remarks lines that begin with '#', for the head of the file
   /// @pre read() was called; @throws NumericalError if it cannot be written
-  void write_resolved(const std::filesystem::path& path) const;
+  void write_resolved(const std::filesystem::path& path,
+                      const std::string& remarks = "") const;
 
-  /// What write_resolved() writes; it begins with first_words_of_resolved.
+  /// What write_resolved() writes without remarks; it begins with first_words_of_resolved.
   std::string resolved_text() const;
   static constexpr std::string_view first_words_of_resolved =
       "# The complete case of a run, defaults included.";
@@ -240,8 +242,27 @@ public:
   };
   std::vector<Change> changes_since(const std::string& earlier_resolved_text) const;
 
-  /// Every key by section: name, unit, default, what is allowed, one sentence. 92 columns.
+  /// Every key by section: name, unit, default, what is allowed, one sentence, of
+  /// folded_descriptions(). 92 columns.
   void help(std::ostream& out) const;
+
+  /// The declaration of a key.
+  struct Description {
+    std::string section, name;
+    std::string unit;     ///< "-" without one
+    std::string standard; ///< text of the default; "" without one
+    std::string rule;     ///< by which a default follows from other keys; "" for none
+    std::string allowed;  ///< range, choices or kind
+    std::string sentence;
+    std::string condition; ///< "Where sizes = table"; "" for a key that always exists
+    bool is_required = false;
+    bool exists_by_default = true; ///< whether its condition holds in a case of defaults
+    std::string not_needed;        ///< "Specimen/coordination = 0"; "" for never
+  };
+  /// All keys, section by section.
+  std::vector<Description> descriptions() const;
+  /// The same; keys that differ only in their number are one, `stage N`.
+  std::vector<Description> folded_descriptions() const;
 
 private:
   struct Limits {

@@ -16,9 +16,12 @@ constexpr std::size_t columns = 92;
 
 } // namespace
 
-void CaseFile::write_resolved(const std::filesystem::path& path) const
+void CaseFile::write_resolved(const std::filesystem::path& path,
+                              const std::string& remarks) const
 {
-  dem::replace_file(path, resolved_text());
+  std::string text = resolved_text();
+  text.insert(text.find('\n') + 1, remarks);
+  dem::replace_file(path, text);
 }
 
 std::string CaseFile::resolved_text() const
@@ -72,10 +75,79 @@ CaseFile::changes_since(const std::string& earlier_resolved_text) const
   return changes;
 }
 
+std::vector<CaseFile::Description> CaseFile::descriptions() const
+{
+  const auto exists = [&](const CaseKey& key) {
+    for (const CaseKey* k = &key; !k->choice.empty();) {
+      const CaseKey* choice = impl_->find_all(k->section, k->choice).front();
+      if (std::find(k->values.begin(), k->values.end(), choice->standard) ==
+          k->values.end())
+        return false;
+      k = choice;
+    }
+    return true;
+  };
+  std::vector<Description> all;
+  for (const std::string& section : impl_->sections)
+    for (const CaseKey& key : impl_->keys) {
+      if (key.section != section) continue;
+      Description d{section,     key.name,     key.unit, key.standard,    key.rule,
+                    key.allowed, key.sentence, {},       key.is_required, exists(key),
+                    {}};
+      if (!key.choice.empty())
+        d.condition = "Where " + key.choice + " = " + joined(key.values, " | ");
+      if (key.is_required && !key.needed_by.second.empty())
+        d.not_needed = key.needed_by.first + "/" + key.needed_by.second + " = 0";
+      all.push_back(std::move(d));
+    }
+  return all;
+}
+
+namespace {
+
+/// "stage " of "stage 12"; "" of a name without a number at its end.
+std::string numbered(const std::string& name)
+{
+  const auto last = name.find_last_not_of("0123456789");
+  if (last == std::string::npos || last + 1 == name.size() || name[last] != ' ') return "";
+  return name.substr(0, last + 1);
+}
+
+/// Whether two keys differ in their number alone.
+bool are_alike(const CaseFile::Description& a, const CaseFile::Description& b)
+{
+  return a.section == b.section && !numbered(a.name).empty() &&
+         numbered(a.name) == numbered(b.name) && a.unit == b.unit &&
+         a.standard == b.standard && a.allowed == b.allowed && a.sentence == b.sentence &&
+         a.condition == b.condition && a.is_required == b.is_required;
+}
+
+} // namespace
+
+std::vector<CaseFile::Description> CaseFile::folded_descriptions() const
+{
+  const std::vector<Description> keys = descriptions();
+  std::vector<CaseFile::Description> result;
+  for (std::size_t k = 0; k < keys.size();) {
+    std::size_t end = k + 1;
+    while (end < keys.size() && are_alike(keys[k], keys[end])) ++end;
+    result.push_back(keys[k]);
+    if (end > k + 1) {
+      const std::string stem = numbered(keys[k].name);
+      result.back().name = stem + "N";
+      result.back().sentence += " N = " + keys[k].name.substr(stem.size()) + " to " +
+                                keys[end - 1].name.substr(stem.size()) + ".";
+    }
+    k = end;
+  }
+  return result;
+}
+
 void CaseFile::help(std::ostream& out) const
 {
+  const std::vector<Description> keys = folded_descriptions();
   std::size_t name_width = 3, unit_width = 4, default_width = 8;
-  for (const CaseKey& key : impl_->keys) {
+  for (const Description& key : keys) {
     name_width = std::max(name_width, key.name.size());
     unit_width = std::max(unit_width, key.unit.size());
     for (const std::string* text : {&key.standard, &key.rule})
@@ -102,7 +174,7 @@ void CaseFile::help(std::ostream& out) const
   row("key", "unit", "default", "allowed");
   for (const std::string& section : impl_->sections) {
     out << "\n" << section << "\n";
-    for (const CaseKey& key : impl_->keys) {
+    for (const Description& key : keys) {
       if (key.section != section) continue;
       row(key.name, key.unit,
           key.is_required        ? "required"
@@ -110,15 +182,10 @@ void CaseFile::help(std::ostream& out) const
           : key.standard.empty() ? "none"
                                  : key.standard,
           key.allowed);
-      const std::string condition =
-          key.choice.empty()
-              ? ""
-              : "Where " + key.choice + " = " + joined(key.values, " | ") + ": ";
-      const std::string exception = !key.is_required || key.needed_by.second.empty()
-                                        ? ""
-                                        : " Not needed where " + key.needed_by.first + "/" +
-                                              key.needed_by.second + " = 0.";
-      out << wrapped(condition + key.sentence + exception, "      ", columns);
+      out << wrapped(
+          (key.condition.empty() ? "" : key.condition + ": ") + key.sentence +
+              (key.not_needed.empty() ? "" : " Not needed where " + key.not_needed + "."),
+          "      ", columns);
     }
   }
 }

@@ -1,6 +1,7 @@
 #include "apps/case/coupled_case.h"
 
 #include "apps/case/motion_keys.h"
+#include "apps/case/unusual.h"
 #include "dem/text.h"
 
 #include <cmath>
@@ -142,6 +143,9 @@ void complete(CaseFile& file, CoupledCase& c)
   }
   s.free_rotation = c.free_rotation;
   complete(file, static_cast<SpecimenKeys&>(c), c.material.contact);
+  refuse_impossible(file, c.bond, c.contact);
+  if (c.model == coupling::FarFieldStructure::Model::elastic)
+    refuse_other_rock(file, "Far field", "Young's modulus", f.E, c.bond);
 }
 
 } // namespace mergel::apps

@@ -76,13 +76,86 @@ inline std::string shown(const std::string& value)
   return value.empty() ? "not given" : value;
 }
 
-/// The text as a string of JSON, in its quotation marks. @pre it is in one line
+/// Number of bytes of the character of UTF-8 at `text[at]`; 0 where there is none, or one that
+/// moves the cursor of a terminal (U+0000 to U+001F, U+007F to U+009F).
+inline std::size_t length_of_printable(std::string_view text, std::size_t at)
+{
+  const auto byte = [&](std::size_t k) {
+    return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : 0U;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
+  const std::size_t n = first >= 0xf0 && first < 0xf5 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first >= 0xf5) return 0;
+  for (std::size_t k = 1; k < n; ++k)
+    if ((byte(k) & 0xc0U) != 0x80U) return 0;
+  return first == 0xc2 && byte(1) < 0xa0 ? 0 : n;
+}
+
+/// The byte as \xNN.
+inline std::string escaped_byte(char c)
+{
+  const char* const digits = "0123456789abcdef";
+  const auto byte = static_cast<unsigned char>(c);
+  return {'\\', 'x', digits[byte / 16], digits[byte % 16]};
+}
+
+/// The text for a terminal: control characters, which would act on it, and bytes that are no
+/// UTF-8 become \xNN. Newlines and tabulators stay.
+inline std::string printable(std::string_view text)
+{
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t n = length_of_printable(text, at);
+    if (n > 0 || text[at] == '\n' || text[at] == '\t')
+      result += text.substr(at, std::max<std::size_t>(n, 1));
+    else
+      result += escaped_byte(text[at]);
+    at += std::max<std::size_t>(n, 1);
+  }
+  return result;
+}
+
+/// The word as a shell reads it: quoted where it has a blank or another special character.
+inline std::string in_shell(const std::string& word)
+{
+  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                            "_-+=./,:@%^";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  bool is_printable = true;
+  for (std::size_t at = 0; is_printable && at < word.size();) {
+    const std::size_t n = length_of_printable(word, at);
+    is_printable = n > 0;
+    at += n;
+  }
+  std::string quoted = is_printable ? "'" : "$'";
+  for (std::size_t at = 0; at < word.size();) {
+    const std::size_t n = length_of_printable(word, at);
+    if (word[at] == '\'')
+      quoted += is_printable ? "'\\''" : "\\'";
+    else if (n == 0)
+      quoted += escaped_byte(word[at]);
+    else
+      quoted += (!is_printable && word[at] == '\\' ? "\\" : "") + word.substr(at, n);
+    at += std::max<std::size_t>(n, 1);
+  }
+  return quoted + "'";
+}
+
+/// The text as a string of JSON, in its quotation marks. What is no UTF-8 becomes \xNN.
 inline std::string in_json(const std::string& text)
 {
   std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t n = length_of_printable(text, at);
+    const auto byte = static_cast<unsigned char>(text[at]);
+    if (n == 1 && (byte == '"' || byte == '\\'))
+      quoted += std::string("\\") + text[at];
+    else if (n == 0 && byte < 0x80)
+      quoted += "\\u00" + escaped_byte(text[at]).substr(2);
+    else
+      quoted += n > 0 ? text.substr(at, n) : "\\" + escaped_byte(text[at]);
+    at += std::max<std::size_t>(n, 1);
   }
   return quoted + '"';
 }

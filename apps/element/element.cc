@@ -2,6 +2,7 @@
 /// strain.
 #include "apps/element/element_output.h"
 #include "apps/element/element_pictures.h"
+#include "apps/element/element_plan.h"
 #include "apps/element/element_state.h"
 #include "apps/run/progress.h"
 #include "apps/run/protocol.h"
@@ -23,6 +24,7 @@ public:
   void declare(CaseFile& file) override { apps::declare(file, case_); }
   void complete(CaseFile& file) override { apps::complete(file, case_); }
   const CheckpointKey& checkpoints() const override { return case_.checkpoints; }
+  Remarks unusual() const override { return apps::unusual(case_); }
   std::vector<std::filesystem::path> inputs() const override
   {
     return {case_.specimen.sample, case_.specimen.table};
@@ -282,10 +284,10 @@ void ElementJob::summarise(Summary& summary, const Work& work) const
 
 } // namespace
 
-void help_element(std::ostream& out)
+void keys_of_element(const UseKeys& use)
 {
   ElementJob job;
-  print_keys(job, out);
+  show_keys(job, use);
 }
 
 int run_element(const JobOptions& options)

@@ -2,6 +2,7 @@
 
 #include "apps/case/motion_keys.h"
 #include "apps/case/units.h"
+#include "apps/case/unusual.h"
 #include "apps/case/words.h"
 #include "apps/specimen/specimen.h"
 #include "dem/error.h"
@@ -173,6 +174,7 @@ void complete(CaseFile& file, ElementCase& c)
   c.specimen.specimen.free_rotation = c.free_rotation;
   complete(file, motion_keys(c));
   complete(file, c.specimen, c.contact.chosen());
+  if (!c.specimen.is_granular()) refuse_impossible(file, c.bond, c.contact);
   check_size(file, c);
   check(file, c.analysis);
 

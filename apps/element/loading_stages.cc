@@ -204,6 +204,34 @@ const dem::LoadingStage& resumed(const std::vector<dem::LoadingStage>& stages)
   return *at;
 }
 
+/// Whether the target of a stage of the words `unload` or `unload-reload` lies beyond that of the
+/// stage before, on its way: that would be loading.
+bool loads_on(const std::string& text, const LoadingStage& stage,
+              const std::vector<LoadingStage>& before)
+{
+  if (!text.starts_with("unload") || before.empty()) return false;
+  const LoadingStage& last = before.back();
+  if (last.returns || last.quantity != stage.quantity) return false;
+  double start = 0.0; // of the last stage; strains of each count from its own
+  if (before.size() > 1 && before[before.size() - 2].quantity == last.quantity &&
+      (last.kind == PathKind::resume || !dem::is_strain(last.quantity)))
+    start = before[before.size() - 2].target;
+  return (stage.target - last.target) * (last.target - start) >= 0.0;
+}
+
+/// Refuse targets that no specimen reaches.
+void require_possible(const std::string& text, const LoadingStage& stage,
+                      const std::vector<LoadingStage>& before)
+{
+  require(!dem::is_strain(stage.quantity) || stage.target < 1.0,
+          "a compression of 100 % leaves nothing of the specimen: strains are engineering "
+          "strains, and must be below 100 %");
+  require(
+      !loads_on(text, stage, before),
+      "the target lies beyond that of the stage before, so this would load on: unload to "
+      "less, or write `resume`");
+}
+
 } // namespace
 
 std::vector<LoadingStage> stages_of(const CaseFile& file,
@@ -222,6 +250,7 @@ std::vector<LoadingStage> stages_of(const CaseFile& file,
     try {
       for (const dem::LoadingStage& stage : read_stages(texts[k])) {
         if (stage.kind == dem::PathKind::resume) stage.check_after(resumed(stages));
+        require_possible(texts[k], stage, stages);
         stages.push_back(stage);
       }
     } catch (const std::invalid_argument& e) {

@@ -37,7 +37,7 @@ void line(const std::string& name, const std::string& value)
 {
   std::string padded = name;
   padded.resize(std::max<std::size_t>(name.size(), 12), ' ');
-  std::cout << "  " << padded << ' ' << value << '\n';
+  std::cout << "  " << padded << ' ' << printable(value) << '\n';
 }
 
 std::string megabytes(double bytes)
@@ -65,7 +65,7 @@ void describe_checkpoint(const fs::path& file)
     const auto found = c.state.arrays().find(name);
     return found == c.state.arrays().end() ? 0 : found->second.rows();
   };
-  std::cout << file.string() << ": checkpoint\n";
+  std::cout << printable(file.string()) << ": checkpoint\n";
   line("job", "mergel " + c.label.job + ", " + c.label.phase);
   line("step", std::to_string(c.label.step));
   line("time", dem::shortest(1e3 * c.label.time) + " ms");
@@ -85,7 +85,7 @@ void describe_checkpoint(const fs::path& file)
 void describe_sample(const fs::path& file)
 {
   const dem::Sample s = dem::read_sample(file);
-  std::cout << file.string() << ": sample\n";
+  std::cout << printable(file.string()) << ": sample\n";
   line("particles", std::to_string(s.packing.particles.size()));
   line("bonds", std::to_string(s.bonding.pairs.size()) + " between particles");
   line("porosity", dem::shortest(s.packing.porosity) + " in the core, " +
@@ -172,7 +172,7 @@ public:
   bool print()
   {
     const std::vector<std::string> missing = missing_files();
-    std::cout << folder_.string() << ": results folder, "
+    std::cout << printable(folder_.string()) << ": results folder, "
               << state_of(folder_, missing.empty()) << '\n';
     for (const std::string& name : missing) judge("missing", name, "");
     if (const std::string holder = FolderLock::holder(folder_); !holder.empty())
@@ -257,7 +257,10 @@ private:
     if (!has("summary.json")) return;
     std::string wrong;
     try {
-      read_json(folder_ / "summary.json");
+      const auto tree = read_json(folder_ / "summary.json");
+      if (const auto made = tree.get_child_optional("made by"))
+        line("made by", made->get("program", "?") + ", " + made->get("date", "?") + " on " +
+                            made->get("host", "?") + ", ranks: " + made->get("ranks", "?"));
     } catch (const std::exception& e) {
       wrong = std::string("summary.json cannot be read: ") + e.what();
     }

@@ -61,6 +61,7 @@ void Installation::begin()
   coupled_.assembly.list.invalidate();
   dem::add_forces(coupled_.assembly, 0.0);
   coupled_.find_time_step();
+  coupled_.time = 0.0; // messages and checkpoints count from here, as history.csv does
   start_ = coupled_.energy_balances(); // a flat tip may press on particles where it stands
   count_bonds();
   frame();

@@ -1,5 +1,6 @@
 /// mergel pile: installs a pile in bonded rock and loads it.
 #include "apps/pile/installation.h"
+#include "apps/pile/pile_plan.h"
 #include "apps/pile/pile_restart.h"
 #include "apps/pile/pile_summary.h"
 #include "apps/run/protocol.h"
@@ -20,6 +21,7 @@ public:
   void declare(CaseFile& file) override { apps::declare(file, case_); }
   void complete(CaseFile& file) override { apps::complete(file, case_); }
   const CheckpointKey& checkpoints() const override { return case_.checkpoints; }
+  Remarks unusual() const override { return apps::unusual(case_); }
   std::vector<std::filesystem::path> inputs() const override
   {
     return {case_.assembly.sample, case_.assembly.table};
@@ -156,10 +158,10 @@ void PileJob::summarise(Summary& summary, const Work& work) const
 
 } // namespace
 
-void help_pile(std::ostream& out)
+void keys_of_pile(const UseKeys& use)
 {
   PileJob job;
-  print_keys(job, out);
+  show_keys(job, use);
 }
 
 int run_pile(const JobOptions& options)

@@ -167,7 +167,8 @@ void CheckpointScheduler::at_end(const dem::Communicator& comm, Position at,
 
 std::string CheckpointScheduler::how_to_continue() const
 {
-  return "Continue with: mergel " + spec_.job + " --restart " + spec_.folder.string();
+  return "Continue with: mergel " + spec_.job + " --restart " +
+         in_shell(spec_.folder.string());
 }
 
 std::string CheckpointScheduler::remedy() const
@@ -182,7 +183,7 @@ std::string CheckpointScheduler::remedy_of_instability() const
   return "; the last checkpoint is " + last_.string() +
          ". Continued from it, the same run would fail again. Continue with the change "
          "named above where a restart may make it, or with a smaller time step: mergel " +
-         spec_.job + " --restart " + spec_.folder.string() +
+         spec_.job + " --restart " + in_shell(spec_.folder.string()) +
          " --set \"Motion/time step safety=...\"";
 }
 

@@ -20,25 +20,31 @@ struct JobOptions {
   bool overwrite = false;          ///< an earlier run there may be replaced
   std::filesystem::path restart;   ///< checkpoint or results folder; empty: a new run
   double walltime = std::numeric_limits<double>::infinity(); ///< wall-clock limit [s]
+  std::vector<std::string> command; ///< the words of the whole command line
 };
+
+class CaseFile;
+struct Plan;
+using UseKeys = std::function<void(const CaseFile&)>;
 
 void help_bench(std::ostream& out); ///< every option of the job
 std::function<int()> read_bench(const std::vector<std::string>& arguments);
-void help_bond(std::ostream& out); ///< every key of the job
+void keys_of_bond(const UseKeys& use); ///< calls it with every key of the job declared
 int run_bond(const JobOptions& options);
 void help_compare(std::ostream& out);
 std::function<int()> read_compare(const std::vector<std::string>& arguments);
-void help_brazilian(std::ostream& out);
+void keys_of_brazilian(const UseKeys& use);
 int run_brazilian(const JobOptions& options);
-void help_element(std::ostream& out);
+void keys_of_element(const UseKeys& use);
 int run_element(const JobOptions& options);
 void help_info(std::ostream& out);
 std::function<int()> read_info(const std::vector<std::string>& arguments);
-void help_pile(std::ostream& out);
+void keys_of_pile(const UseKeys& use);
 int run_pile(const JobOptions& options);
-void help_sample(std::ostream& out);
+void help_sample(std::ostream& out); ///< which other cases serve
+void keys_of_sample(const UseKeys& use);
 int run_sample(const JobOptions& options);
-void help_triaxial(std::ostream& out);
+void keys_of_triaxial(const UseKeys& use);
 int run_triaxial(const JobOptions& options);
 
 /// Returns the exit code. @pre MPI is initialised
@@ -47,32 +53,57 @@ using RunCase = int (*)(const JobOptions&);
 /// once MPI is initialised. @throws InputError, or CLI::CallForHelp
 using ReadArguments = std::function<int()> (*)(const std::vector<std::string>&);
 
+/// Reads and checks the case of the options, and says what would run. Nothing is written.
+/// @throws InputError naming file, line and key
+using PlanCase = Plan (*)(const JobOptions&);
+Plan plan_bond(const JobOptions& options);
+Plan plan_brazilian(const JobOptions& options);
+Plan plan_element(const JobOptions& options);
+Plan plan_pile(const JobOptions& options);
+Plan plan_sample(const JobOptions& options);
+Plan plan_triaxial(const JobOptions& options);
+
+void help_check(std::ostream& out);
+std::function<int()> read_check(const std::vector<std::string>& arguments);
+
 struct Job {
   const char* name;
   const char* sentence;
+  const char* arguments; ///< what follows the name of the job
+  /// Options of a job without a case; of others remarks on their case, or null.
   void (*help)(std::ostream&);
+  void (*keys)(const UseKeys&); ///< null for a job without a case
   std::variant<RunCase, ReadArguments> run;
   bool writes_checkpoints = false; ///< and can stop before a time limit
+  PlanCase plan = nullptr;         ///< null for a job without a case
 
   bool reads_case() const { return std::holds_alternative<RunCase>(run); }
 };
 
-inline constexpr std::array<Job, 9> jobs{{
-    {"bench", "Measure what a step costs on this machine.", help_bench, read_bench},
-    {"bond", "Load one bonded pair of particles along any path.", help_bond, run_bond},
-    {"compare", "Read several tests together: table, means, strength, critical states.",
-     help_compare, read_compare},
+inline constexpr const char* case_and_options = "CASE.prm [options]";
+
+inline constexpr std::array<Job, 10> jobs{{
+    {"bench", "Measure what a step costs on this machine.", "[options]", help_bench,
+     nullptr, read_bench},
+    {"bond", "Load one bonded pair of particles along any path.", case_and_options, nullptr,
+     keys_of_bond, run_bond, false, plan_bond},
     {"brazilian", "Press a disc of bonded rock across its diameter until it splits.",
-     help_brazilian, run_brazilian, true},
+     case_and_options, nullptr, keys_of_brazilian, run_brazilian, true, plan_brazilian},
+    {"check",
+     "Read and check a case of any job, and say what would run: sizes, steps, hours.",
+     "CASE.prm [options]", help_check, nullptr, read_check},
+    {"compare", "Read several tests together: table, means, strength, critical states.",
+     "DIR... [options]", help_compare, nullptr, read_compare},
     {"element", "Load a periodic cell of bonded rock along any path of stress and strain.",
-     help_element, run_element, true},
-    {"info", "Describe and check a sample, a checkpoint or a results folder.", help_info,
-     read_info},
-    {"pile", "Install a pile in a chamber of bonded rock.", help_pile, run_pile, true},
-    {"sample", "Make a specimen and write it to a file for later runs.", help_sample,
-     run_sample},
+     case_and_options, nullptr, keys_of_element, run_element, true, plan_element},
+    {"info", "Describe and check a sample, a checkpoint or a results folder.", "PATH",
+     help_info, nullptr, read_info},
+    {"pile", "Install a pile in a chamber of bonded rock.", case_and_options, nullptr,
+     keys_of_pile, run_pile, true, plan_pile},
+    {"sample", "Make a specimen and write it to a file for later runs.", case_and_options,
+     help_sample, keys_of_sample, run_sample, false, plan_sample},
     {"triaxial", "Load a cylinder of bonded rock in a membrane under a cell pressure.",
-     help_triaxial, run_triaxial, true},
+     case_and_options, nullptr, keys_of_triaxial, run_triaxial, true, plan_triaxial},
 }};
 
 } // namespace mergel::apps

@@ -1,5 +1,6 @@
 #include "apps/run/protocol.h"
 
+#include "apps/case/words.h"
 #include "apps/run/ranks.h"
 #include "apps/run/results.h"
 #include "apps/run/shared_folder.h"
@@ -18,9 +19,9 @@ void RunFolder::prepare()
 {
   on_first_rank([&] {
     if (restart_)
-      prepare_continued_folder(folder_, inputs_, file_, *restart_);
+      prepare_continued_folder(folder_, inputs_, file_, *restart_, made_);
     else
-      begin_folder(folder_, inputs_, file_);
+      begin_folder(folder_, inputs_, file_, made_);
   });
   require_shared(path());
   is_prepared_ = true;
@@ -90,18 +91,18 @@ void print_summary(const fs::path& file, const Summary& summary)
   std::error_code error; // the user sees what there is
   const bool has_fields = fs::exists(file.parent_path() / "particles.pvd", error);
   std::cout << '\n'
-            << text << "\nresults: " << folder << " (history.csv, "
+            << text << "\nresults: " << printable(folder) << " (history.csv, "
             << file.filename().string() << (has_fields ? ", *.pvd for ParaView" : "")
-            << "); pictures: mergel-view " << folder << std::endl;
+            << "); pictures: mergel-view " << in_shell(folder) << std::endl;
 }
 
 } // namespace
 
-void print_keys(CheckpointedJob& job, std::ostream& out)
+void show_keys(CheckpointedJob& job, const UseKeys& use)
 {
   CaseFile file;
   job.declare(file);
-  file.help(out);
+  use(file);
 }
 
 int run_job(CheckpointedJob& job, const JobOptions& options, MPI_Comm comm)
@@ -123,11 +124,14 @@ int run_job(CheckpointedJob& job, const JobOptions& options, MPI_Comm comm)
   }
 
   const double seconds_before = restart ? seconds_in(restart->checkpoint.state) : 0.0;
-  RunFolder folder(output, inputs, file, restart ? &*restart : nullptr);
+  const Provenance made = provenance(options);
+  RunFolder folder(output, inputs, file, restart ? &*restart : nullptr, made);
   if (restart)
     job.resume(*restart, folder, comm);
-  else
+  else {
+    std::cout << lines_of(job.unusual());
     job.begin(file, folder, comm);
+  }
   if (!folder.is_prepared())
     throw std::logic_error(std::string("the job ") + job.name() +
                            " began without its results folder");
@@ -150,6 +154,7 @@ int run_job(CheckpointedJob& job, const JobOptions& options, MPI_Comm comm)
     Summary summary;
     if (!failure.empty()) summary.text("failure", failure);
     job.summarise(summary, {job.position().step - first_step, seconds()});
+    summary.json("made by", made.json());
     const fs::path summary_file = folder.path() / name;
     on_first_rank([&] { dem::replace_file(summary_file, summary.object()); });
     print_summary(summary_file, summary);

@@ -13,14 +13,15 @@
 #pragma once
 
 #include "apps/case/case_file.h"
+#include "apps/case/unusual.h"
 #include "apps/run/checkpoint_scheduler.h"
 #include "apps/run/jobs.h"
 #include "apps/run/restart.h"
 #include "apps/run/summary.h"
 
 #include <functional>
-#include <iosfwd>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mergel::apps {
@@ -31,8 +32,9 @@ public:
   /// All arguments must outlive the object.
   /// @param restart null for a new run
   RunFolder(OutputFolder& folder, const std::vector<std::filesystem::path>& inputs,
-            const CaseFile& file, const Restart* restart)
-      : folder_(folder), inputs_(inputs), file_(file), restart_(restart)
+            const CaseFile& file, const Restart* restart, Provenance made)
+      : folder_(folder), inputs_(inputs), file_(file), restart_(restart),
+        made_(std::move(made))
   {
   }
   const std::filesystem::path& path() const { return folder_.path(); }
@@ -50,6 +52,7 @@ private:
   const std::vector<std::filesystem::path>& inputs_;
   const CaseFile& file_;
   const Restart* restart_;
+  Provenance made_;
   bool is_prepared_ = false;
 };
 
@@ -73,6 +76,8 @@ public:
   /// Check what spans several keys. @throws InputError naming file, line and key
   virtual void complete(CaseFile& file) = 0;
   virtual const CheckpointKey& checkpoints() const = 0;
+  /// What is unusual of the complete case; said where a new run begins.
+  virtual Remarks unusual() const = 0;
   /// Files that the case names and a new run reads; some may be empty.
   virtual std::vector<std::filesystem::path> inputs() const = 0;
   /// Keys that a restart may change, "Section/key", beside those of every job: see
@@ -110,8 +115,8 @@ public:
   virtual void summarise(Summary& summary, const Work& work) const = 0;
 };
 
-/// Print every key of the job with its meaning.
-void print_keys(CheckpointedJob& job, std::ostream& out);
+/// Call `use` with every key of the job declared.
+void show_keys(CheckpointedJob& job, const UseKeys& use);
 
 /// Run a job from its command line to its end, or until it is stopped (apps/run/README.md,
 /// Checkpoints and restart). Every job may change in a restart `Motion/time step safety`,

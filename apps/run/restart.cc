@@ -57,12 +57,12 @@ Restart read_folder(const fs::path& place)
   for (const dem::RefusedCheckpoint& r : newest.refused) {
     refused.push_back(r.file.string() + ": " + r.reason);
     if (!r.is_damaged)
-      throw InputError(
-          in_front + refused.back() + ". It may be complete, so the run does not " +
-          "continue from an older one: make it readable" +
-          (newest.file.empty()
-               ? std::string(".")
-               : ", or choose an older one with --restart " + newest.file.string() + "."));
+      throw InputError(in_front + refused.back() +
+                       ". It may be complete, so the run does not " +
+                       "continue from an older one: make it readable" +
+                       (newest.file.empty() ? std::string(".")
+                                            : ", or choose an older one with --restart " +
+                                                  in_shell(newest.file.string()) + "."));
   }
   if (newest.file.empty())
     throw InputError(in_front + "no checkpoint can be read: " + joined(refused, "; "));
@@ -213,10 +213,10 @@ OutputFolder folder_to_begin_in(const JobOptions& options)
 }
 
 void begin_folder(OutputFolder& folder, const std::vector<fs::path>& inputs,
-                  const CaseFile& file)
+                  const CaseFile& file, const Provenance& made)
 {
   folder.commit(inputs);
-  file.write_resolved(folder.path() / "resolved.prm");
+  file.write_resolved(folder.path() / "resolved.prm", made.remark());
 }
 
 namespace {
@@ -277,15 +277,17 @@ void copy_checkpoint(const Restart& restart, const fs::path& folder)
 
 void prepare_continued_folder(OutputFolder& folder,
                               const std::vector<std::filesystem::path>& inputs,
-                              const CaseFile& file, const Restart& restart)
+                              const CaseFile& file, const Restart& restart,
+                              const Provenance& made)
 {
+  const std::string starts = earlier_starts(restart.folder / "resolved.prm");
   folder.commit(inputs);
   // Without it the folder would look like that of a run without checkpoints.
   copy_checkpoint(restart, folder.path());
   const std::size_t n_frames = Frames::count(restart.checkpoint.state);
   for (const auto& set_aside : folder.remove_after(n_frames, restart.checkpoint.label.step))
     std::cout << "set aside: " << set_aside.string() << '\n';
-  file.write_resolved(folder.path() / "resolved.prm");
+  file.write_resolved(folder.path() / "resolved.prm", starts + made.remark());
 }
 
 std::string report(const Restart& restart)
@@ -302,7 +304,7 @@ std::string report(const Restart& restart)
     out << '\n'
         << c.section << '/' << c.key << " was " << shown(c.was) << ", is now "
         << shown(c.is);
-  return out.str();
+  return printable(out.str());
 }
 
 } // namespace mergel::apps

@@ -5,6 +5,7 @@
 #include "apps/case/case_file.h"
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"
+#include "apps/run/provenance.h"
 #include "apps/run/ranks.h"
 #include "apps/run/same_input.h"
 #include "dem/io/history.h"
@@ -68,7 +69,7 @@ OutputFolder folder_to_begin_in(const JobOptions& options);
 /// first rank.
 /// @param inputs as of OutputFolder::commit()
 void begin_folder(OutputFolder& folder, const std::vector<std::filesystem::path>& inputs,
-                  const CaseFile& file);
+                  const CaseFile& file, const Provenance& made);
 
 /// The results folder of the run, that of the checkpoint or another, checked by the first
 /// rank. Collective.
@@ -85,11 +86,13 @@ std::filesystem::path checkpoint_in(const std::filesystem::path& folder,
 /// Prepare the folder where the run continues. To another folder the checkpoint is copied
 /// first: if the run is killed meanwhile, its folder has a checkpoint. Then files written
 /// after the checkpoint are removed, newer checkpoints are set aside and named on
-/// std::cout, and the resolved case is written. On the first rank.
+/// std::cout, and the resolved case is written, with the earlier starts of the run. On the
+/// first rank.
 /// @param inputs as of OutputFolder::commit()
 void prepare_continued_folder(OutputFolder& folder,
                               const std::vector<std::filesystem::path>& inputs,
-                              const CaseFile& file, const Restart& restart);
+                              const CaseFile& file, const Restart& restart,
+                              const Provenance& made);
 
 /// A line on a history that is missing beside its checkpoint; "" where it is there.
 /// @throws InputError when it differs before the mark

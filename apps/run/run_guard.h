@@ -12,6 +12,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <exception>
@@ -24,6 +25,25 @@
 namespace mergel::apps {
 
 enum ExitCode : int { exit_done = 0, exit_input = 1, exit_failure = 2, exit_bug = 3 };
+
+/// A message for a terminal: printable, and a number of more than 40 digits by its first ones. What
+/// goes unstable, and what is mistyped, has hundreds.
+inline std::string for_people(const std::string& message)
+{
+  constexpr std::size_t most = 40, kept = 10;
+  std::string text;
+  for (std::size_t at = 0; at < message.size();) {
+    const std::size_t digit = message.find_first_of("0123456789", at);
+    text += message.substr(at, digit - at);
+    if (digit == std::string::npos) break;
+    at = std::min(message.find_first_not_of("0123456789", digit), message.size());
+    const std::size_t n = at - digit;
+    text += n <= most
+                ? message.substr(digit, n)
+                : message.substr(digit, kept) + "...(" + std::to_string(n) + " digits)";
+  }
+  return printable(text);
+}
 
 /// What to print, and how the program ends.
 struct Verdict {
@@ -139,15 +159,15 @@ int run_guarded(const Task& task,
     if (!is_up && launched_rank() >= 0) {
       // The launcher ends the job at the first exit: rank 0 must have printed by then.
       MPI_Init(nullptr, nullptr);
-      if (launched_rank() == 0) std::cerr << verdict.message << std::endl;
+      if (launched_rank() == 0) std::cerr << for_people(verdict.message) << std::endl;
       MPI_Finalize();
       return verdict.code;
     }
     if (exit.is_alone() || (verdict.is_collective && exit.all_arrive(timeout))) {
-      if (exit.rank() == 0) std::cerr << verdict.message << std::endl;
+      if (exit.rank() == 0) std::cerr << for_people(verdict.message) << std::endl;
       return verdict.code;
     }
-    std::cerr << "rank " << exit.rank() << ": " << verdict.message << std::endl;
+    std::cerr << "rank " << exit.rank() << ": " << for_people(verdict.message) << std::endl;
     MPI_Abort(MPI_COMM_WORLD, verdict.code);
     return verdict.code;
   }

@@ -1,8 +1,9 @@
 /// mergel sample: makes a specimen and writes it to a file that later runs read.
-#include "apps/brazilian/brazilian_case.h"
+#include "apps/brazilian/brazilian_plan.h"
+#include "apps/case/words.h"
 #include "apps/coupled/system_of_case.h"
-#include "apps/element/element_case.h"
-#include "apps/pile/pile_case.h"
+#include "apps/element/element_plan.h"
+#include "apps/pile/pile_plan.h"
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
@@ -10,9 +11,10 @@
 #include "apps/run/results.h"
 #include "apps/sample/job_of_case.h"
 #include "apps/specimen/specimen.h"
-#include "apps/triaxial/triaxial_case.h"
+#include "apps/triaxial/triaxial_plan.h"
 #include "dem/io/assembly_fields.h"
 #include "dem/io/atomic_file.h"
+#include "dem/specimen/forecast.h"
 
 #include <iostream>
 
@@ -110,6 +112,13 @@ void refuse_sample(const CaseFile& file, const SpecimenKeys& k)
                 "mergel sample makes the specimen: leave the key empty");
 }
 
+Remarks unusual(const SampleCase& c)
+{
+  Remarks remarks;
+  remark_on_specimen(remarks, c.specimen);
+  return remarks;
+}
+
 /// Read the case, make the specimen, print its report and write its files.
 template <class Case>
 void make(const JobOptions& options)
@@ -128,18 +137,22 @@ void make(const JobOptions& options)
   OutputFolder folder = folder_of(options, std::nullopt, inputs, {});
   fit_to_walls(c);
 
+  std::cout << lines_of(unusual(c));
   const dem::Sample sample = obtain_sample(file, k);
   std::cout << report(k, sample) << '\n';
   const auto path = folder.path() / "sample.h5";
   on_first_rank([&] {
-    begin_folder(folder, inputs, file);
+    const Provenance made = provenance(options);
+    begin_folder(folder, inputs, file, made);
     dem::write_sample(path, sample);
     write_pictures(folder.path(), as_assembly(k, sample));
-    dem::replace_file(folder.path() / "summary.json", summary(k, sample));
+    Summary found = summary(k, sample);
+    found.json("made by", made.json());
+    dem::replace_file(folder.path() / "summary.json", found.object());
     require_results(folder.path(), "sample");
   });
-  std::cout << "specimen: " << path.string()
-            << "\nuse it with --set \"Specimen/file=" << path.string() << "\"\n";
+  std::cout << "specimen: " << path.string() << "\nuse it with --set "
+            << in_shell("Specimen/file=" + path.string()) << "\n";
 }
 
 } // namespace
@@ -153,11 +166,32 @@ void help_sample(std::ostream& out)
          "or `Loading/velocity`, one of brazilian;\na section Membrane or Platens one of "
          "triaxial; a section Loading one of triaxial for a cylinder,\none of element for "
          "a "
-         "periodic box. Each job lists its keys by --help.\nKeys of all other cases:\n\n";
+         "periodic box. Each job lists its keys by --help. The keys below are those of all "
+         "other cases.\n\n";
+}
+
+void keys_of_sample(const UseKeys& use)
+{
   CaseFile file;
   SampleCase c;
   declare(file, c);
-  file.help(out);
+  use(file);
+}
+
+Plan plan_sample(const JobOptions& options)
+{
+  CaseFile file;
+  SampleCase c;
+  declare(file, c);
+  file.read(options.case_file, options.set);
+  complete(file, c);
+  Plan plan;
+  plan.n_particles = dem::expected_particles(c.specimen.specimen);
+  plan.particles_by = "solid volume over the mean volume of a particle";
+  plan.bonds_per_particle = 0.5 * c.specimen.specimen.coordination;
+  plan.is_made = true;
+  plan.unusual = unusual(c);
+  return plan;
 }
 
 int run_sample(const JobOptions& options)

@@ -1,10 +1,12 @@
 #include "apps/specimen/specimen.h"
 
+#include "apps/case/unusual.h"
 #include "apps/run/progress.h"
 #include "apps/run/ranks.h"
 #include "apps/run/same_input.h"
 #include "dem/text.h"
 
+#include <iostream>
 #include <sstream>
 
 namespace mergel::apps {
@@ -47,6 +49,9 @@ dem::Sample read_or_make(const CaseFile& file, const SpecimenKeys& k)
   return sample;
 }
 
+/// Of the coordination: a specimen of a thousand particles has it to a percent [-].
+constexpr double coordination_tolerance = 0.05;
+
 double coordination(const dem::Sample& sample)
 {
   return 2.0 * static_cast<double>(sample.bonding.pairs.size()) /
@@ -59,6 +64,12 @@ dem::Sample obtain_sample(const CaseFile& file, const SpecimenKeys& k)
 {
   dem::Sample sample = read_or_make(file, k);
   dem::draw_strengths(k.strengths, sample.packing.particles);
+  const double Z = coordination(sample), wanted = k.specimen.coordination;
+  if (Z < (1.0 - coordination_tolerance) * wanted)
+    std::cout << lines_of({"Specimen/coordination = " + three_digits(wanted) +
+                           " is wanted, and pairs up to `bond gap` give " +
+                           three_digits(Z) +
+                           ": raise `Specimen/bond gap` or lower the coordination"});
   return sample;
 }
 
@@ -96,7 +107,7 @@ std::string report(const SpecimenKeys& k, const dem::Sample& sample)
   return out.str() + report(k.strengths, p.particles);
 }
 
-std::string summary(const SpecimenKeys& k, const dem::Sample& sample)
+Summary summary(const SpecimenKeys& k, const dem::Sample& sample)
 {
   const dem::SpecimenSpec& s = k.specimen;
   const dem::Packing& p = sample.packing;
@@ -139,11 +150,9 @@ std::string summary(const SpecimenKeys& k, const dem::Sample& sample)
          {"smallest strength factor [-]", drawn.smallest},
          {"largest strength factor [-]", drawn.largest}});
   }
-  std::string text;
-  for (const auto& [name, value] : numbers)
-    text += (text.empty() ? "{\n  \"" : ",\n  \"") + std::string(name) +
-            "\": " + dem::shortest(value);
-  return text + "\n}\n";
+  Summary found;
+  for (const auto& [name, value] : numbers) found.number(name, value);
+  return found;
 }
 
 } // namespace mergel::apps

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/case/specimen_keys.h"
+#include "apps/run/summary.h"
 
 namespace mergel::apps {
 
@@ -13,7 +14,7 @@ dem::Sample obtain_sample(const CaseFile& file, const SpecimenKeys& k);
 /// One paragraph: porosity, pressure, coordination and sizes reached.
 std::string report(const SpecimenKeys& k, const dem::Sample& sample);
 
-/// The same as JSON, one line per number.
-std::string summary(const SpecimenKeys& k, const dem::Sample& sample);
+/// The same as numbers, for summary.json.
+Summary summary(const SpecimenKeys& k, const dem::Sample& sample);
 
 } // namespace mergel::apps

@@ -6,6 +6,7 @@
 #include "apps/run/step_report.h"
 #include "apps/specimen/specimen.h"
 #include "apps/triaxial/triaxial_output.h"
+#include "apps/triaxial/triaxial_plan.h"
 #include "apps/triaxial/triaxial_summary.h"
 #include "dem/assembly/distribute.h"
 #include "dem/io/state/named_rows.h"
@@ -25,6 +26,7 @@ public:
   void declare(CaseFile& file) override { apps::declare(file, case_); }
   void complete(CaseFile& file) override { apps::complete(file, case_); }
   const CheckpointKey& checkpoints() const override { return case_.checkpoints; }
+  Remarks unusual() const override { return apps::unusual(case_); }
   std::vector<std::filesystem::path> inputs() const override
   {
     return {case_.specimen.sample, case_.specimen.table};
@@ -360,10 +362,10 @@ void TriaxialJob::summarise(Summary& summary, const Work& work) const
 
 } // namespace
 
-void help_triaxial(std::ostream& out)
+void keys_of_triaxial(const UseKeys& use)
 {
   TriaxialJob job;
-  print_keys(job, out);
+  show_keys(job, use);
 }
 
 int run_triaxial(const JobOptions& options)

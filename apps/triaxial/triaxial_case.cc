@@ -1,6 +1,7 @@
 #include "apps/triaxial/triaxial_case.h"
 
 #include "apps/case/motion_keys.h"
+#include "apps/case/unusual.h"
 #include "dem/text.h"
 
 #include <algorithm>
@@ -273,6 +274,7 @@ void complete(CaseFile& file, TriaxialCase& c)
   complete(file, c.specimen, c.material.contact);
   if (c.specimen.upscaling != SpecimenKeys::Upscaling::uniform)
     file.refuse("Specimen", "upscaling", "a triaxial test takes `uniform`");
+  if (!c.specimen.is_granular()) refuse_impossible(file, c.bond, c.contact);
   check(file, c.analysis);
   complete(file, c.checkpoints);
   c.stages = stages_of(file, c.stage_texts);

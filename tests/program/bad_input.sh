@@ -16,9 +16,13 @@ tiny=(--set "Specimen/diameter=6 mm" --set "Specimen/height=6 mm")
 . "$root/tests/program/refusals.sh"
 
 ## the command line
-refuse "no job" 'mergel: no job is given\. .*'
 refuse "unknown job" 'mergel: unknown job "piel"\. Did you mean "pile"\?' piel good.prm
 refuse "no case" 'mergel pile: no case file is given\. .*' pile
+refuse "a word too many" 'mergel version: "now" is one word too many\. .*' version now
+refuse "keys of a job without a case" 'mergel info: --json is for jobs with a case.*' info --help --json
+refuse "--json alone" 'mergel pile: --json belongs to --help: .*' pile good.prm --json
+refuse "a cost of nothing" 'mergel check: --cost must be a positive number.*' check good.prm --cost 0
+refuse "a check of nothing" 'mergel check: no case file is given\. .*' check
 refuse "unknown option" 'mergel pile: .*--outptu.*' pile good.prm --outptu out
 refuse "malformed --set" '--set "diameter": is not understood\. .*' pile good.prm --set diameter
 
@@ -209,6 +213,21 @@ refuse "faces of a full model" '--set Specimen/faces around the side=12: .*' \
   pile case.prm --output out --set "Specimen/shape=cylinder" --set "Specimen/faces around the side=12"
 refuse_set "a specimen of a pile under pressure" "${place}Specimen/packing = confined: .*use .unjammed." \
   "Specimen/packing=confined" "Specimen/target pressure=5 kPa"
+
+## units and stages
+for job in pile check; do
+  refuse "a bond in mPa ($job)" '--set Bond/effective modulus = 22\.5 mPa: is below the tensile strength of the bond, 36 MPa: .*' \
+    $job good.prm --set "Bond/effective modulus=22.5 mPa"
+  refuse "a contact in mPa ($job)" '--set Contact/effective modulus = 0\.63 mPa: is more than a million times off .*' \
+    $job good.prm --set "Contact/effective modulus=0.63 mPa"
+  refuse "a far field in mPa ($job)" "--set Far field/Young's modulus = 1\\.1 mPa: is more than a million times off .*" \
+    $job good.prm --set "Far field/Young's modulus=1.1 mPa"
+done
+refuse "a compression of 200 %" '--set Loading/stage 2 = .*: a compression of 100 % leaves nothing of the specimen: .*' \
+  element "$root/apps/cases/element_small.prm" --set "Loading/stage 2=triaxial to axial strain = 200 %"
+refuse "an unloading upwards" '--set Loading/stage 4 = .*: the target lies beyond that of the stage before, .*' \
+  element "$root/apps/cases/element_small.prm" --set "Loading/stage 3=isotropic to p = 2 MPa" \
+  --set "Loading/stage 4=unload to p = 3 MPa"
 
 ## one bond
 cp "$root/apps/cases/bond_fig5a.prm" bond.prm

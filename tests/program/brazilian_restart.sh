@@ -9,7 +9,6 @@
 brazilian() { bounded "$mergel" brazilian "$@"; }
 lines() { cat "$1/history.csv" 2>/dev/null | wc -l; }
 has_lines() { [ "$(lines a)" -ge "$1" ]; }
-physics() { grep -v 'wall-clock time' "$1/summary.json"; }
 case_file=$root/apps/cases/brazilian_small.prm
 tiny=(--set "Specimen/diameter=4.5 mm" --set "Specimen/height=2.4 mm" --set "Loading/velocity=50 mm/s"
   --set "Strength variability/distribution=Weibull" --set "Strength variability/coefficient of variation=0.3")

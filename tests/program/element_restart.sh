@@ -8,7 +8,6 @@
 element() { bounded "$mergel" element "$@"; }
 has_lines() { [ "$(lines a)" -ge "$1" ]; }
 lines() { cat "$1/history.csv" 2>/dev/null | wc -l; }
-physics() { grep -v 'wall-clock time' "$1/summary.json"; }
 case_file=$root/apps/cases/element_small.prm
 # Few particles, bonds of varied strength that break, a stage that is resumed after unloading, lateral stress.
 tiny=(--set "Specimen/edge x=3.5 mm" --set "Specimen/edge y=3.5 mm" --set "Specimen/edge z=3.5 mm"

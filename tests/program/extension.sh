@@ -9,7 +9,6 @@
 checkpoints() { compgen -G "$1/checkpoint_*.h5" | wc -l; }
 newest() { compgen -G "$1/checkpoint_*.h5" | sort | tail -1; }
 lines() { wc -l <"$1/history.csv"; }
-physics() { grep -v 'wall-clock time' "$1/summary.json"; }
 # Names, times and bytes of all files of a folder.
 state_of() { (cd "$1" && find . -type f -printf '%p %T@\n' -exec cksum {} + | sort); }
 # JOB FOLDER PATTERN: restarted as it is, it says this and changes nothing.

@@ -15,6 +15,11 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yi
 
 fail() { echo "FAILED: $*"; exit 1; }
 
+# What a run has found, and the case that it ran: summary.json and resolved.prm without what differs from run
+# to run, its time and by what, where and when it was made (apps/run/provenance.h).
+physics() { grep -Ev 'wall-clock time|^  "made by": ' "$1/summary.json"; }
+case_of() { grep -v '^# made on ' "$1/resolved.prm"; }
+
 # Processor time of a process and all that it started [s].
 processor_time()
 {

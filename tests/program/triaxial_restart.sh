@@ -9,7 +9,6 @@
 triaxial() { bounded "$mergel" triaxial "$@"; }
 lines() { cat "$1/history.csv" 2>/dev/null | wc -l; }
 has_lines() { [ "$(lines a)" -ge "$1" ]; }
-physics() { grep -v 'wall-clock time' "$1/summary.json"; }
 case_file=$root/apps/cases/triaxial_small.prm
 # Few particles, bonds of varied strength that break, a platen that tilts, a membrane so heavy that its own forces
 # act at every second step, a stage that is resumed after unloading.

@@ -34,6 +34,7 @@ public:
   }
   void complete(CaseFile& file) override { apps::complete(file, checkpoints_); }
   const CheckpointKey& checkpoints() const override { return checkpoints_; }
+  Remarks unusual() const override { return {}; }
   std::vector<fs::path> inputs() const override { return {}; }
   std::vector<std::string> free_keys() const override { return {"Count/to"}; }
   void check_restart(const CaseFile& file, const Restart& restart) const override

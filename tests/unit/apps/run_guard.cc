@@ -108,3 +108,17 @@ TEST_CASE("nearest() finds the word that differs in few letters, or none", "[uni
   CHECK(nearest("", words).empty());
   CHECK(nearest("xy", {"ab"}).empty()); // two wrong letters of two
 }
+
+TEST_CASE("A message has no number of hundreds of digits, and no control characters",
+          "[unit][apps]")
+{
+  CHECK(for_people("overlap 12345678901234567890, at most 1e5") ==
+        "overlap 12345678901234567890, at most 1e5");
+  CHECK(for_people("term " + std::string(300, '7') + ".5 N") ==
+        "term 7777777777...(300 digits).5 N");
+  CHECK(for_people("0." + std::string(41, '1')) == "0.1111111111...(41 digits)");
+  CHECK(for_people("a\x1b[0m") == "a\\x1b[0m");
+  const Outcome end =
+      outcome([]() -> int { throw InputError("key \x1b[31m = " + std::string(99, '1')); });
+  CHECK(end.printed == "key \\x1b[31m = 1111111111...(99 digits)\n");
+}

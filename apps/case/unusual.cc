@@ -1,0 +1,143 @@
+#include "apps/case/unusual.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace mergel::apps {
+
+namespace {
+
+/// Moduli of one rock that are further apart are a mistake in a unit [-].
+constexpr double impossible_ratio = 1e6, unusual_ratio = 1e3;
+/// Modulus over tensile strength of a bond [-]: rock breaks at strains of 1e-4 to 1e-2.
+constexpr double softest_bond = 10.0, stiffest_bond = 1e6;
+/// Contacts of a packing, bond gap included, that are reached [-].
+constexpr double most_coordination = 8.0;
+/// Volume fraction, shells included, of packings that hold together [-].
+constexpr double loosest_fraction = 0.52;
+
+double tensile_strength(const dem::BondLaw& bond)
+{
+  return std::visit(
+      [](const auto& law) {
+        const dem::BondShape<double> shape = bond_shape(law, 1.0, 1.0);
+        return single_strengths(law, shape).tension / shape.A;
+      },
+      bond);
+}
+
+double ratio_apart(double a, double b)
+{
+  return std::max(a / b, b / a); // both > 0
+}
+
+std::string in_mpa(double x)
+{
+  return three_digits(1e-6 * x) + " MPa";
+}
+
+const char* modulus_key(const dem::ContactLaw& contact)
+{
+  return std::holds_alternative<dem::LinearMaterial>(contact) ? "effective modulus"
+                                                              : "Young's modulus";
+}
+
+} // namespace
+
+std::string three_digits(double x)
+{
+  std::ostringstream out;
+  out.precision(3);
+  out << x;
+  return out.str();
+}
+
+void expect_at_least(Remarks& remarks, const std::string& name, double value, double bound,
+                     const std::string& why)
+{
+  if (value < bound)
+    remarks.push_back(name + " = " + three_digits(value) + "; usual is " +
+                      three_digits(bound) + " or more: " + why);
+}
+
+void expect_at_most(Remarks& remarks, const std::string& name, double value, double bound,
+                    const std::string& why)
+{
+  if (value > bound)
+    remarks.push_back(name + " = " + three_digits(value) + "; usual is " +
+                      three_digits(bound) + " or less: " + why);
+}
+
+double smallest_d_50(const SpecimenKeys& k)
+{
+  const dem::SpecimenSpec& s = k.specimen;
+  return s.sizes.sieve(0.5) * std::min(s.scale.S_inner, s.scale.S_outer);
+}
+
+void remark_on_specimen(Remarks& remarks, const SpecimenKeys& k)
+{
+  const dem::SpecimenSpec& s = k.specimen;
+  expect_at_least(remarks, "width of the region/d50",
+                  dem::smallest_width(s.region) /
+                      (s.sizes.sieve(0.5) * std::max(s.scale.S_inner, s.scale.S_outer)),
+                  fewest_across, "so few particles are no continuum");
+  expect_at_most(remarks, "Specimen/coordination", s.coordination, most_coordination,
+                 "packings do not reach it");
+  expect_at_least(remarks, "volume fraction of the particles with their far-field shells",
+                  dem::effective_solid_fraction(s), loosest_fraction,
+                  "at this porosity most of them touch nobody, and few are bonded; lower "
+                  "`Specimen/porosity` or raise `Contact/activation gap`");
+}
+
+void remark_on_materials(Remarks& remarks, const BondKeys& bond, const ContactKeys& contact)
+{
+  const dem::BondLaw law = bond.chosen();
+  const double E = dem::section(law).E, strength = tensile_strength(law);
+  expect_at_least(remarks, "bond modulus/tensile strength", E / strength, softest_bond,
+                  "rock breaks at strains of 1e-4 to 1e-2; is a unit wrong?");
+  expect_at_most(remarks, "bond modulus/tensile strength", E / strength, stiffest_bond,
+                 "rock breaks at strains of 1e-4 to 1e-2; is a unit wrong?");
+  remark_on_other_rock(remarks, "contact", dem::modulus(contact.chosen()), bond);
+}
+
+void refuse_impossible(const CaseFile& file, const BondKeys& bond,
+                       const ContactKeys& contact)
+{
+  const dem::BondLaw law = bond.chosen();
+  const dem::ContactLaw far = contact.chosen();
+  const double E = dem::section(law).E, strength = tensile_strength(law);
+  if (E < strength)
+    file.refuse("Bond", "effective modulus",
+                "is below the tensile strength of the bond, " + in_mpa(strength) +
+                    ": it would stretch by more than its own length before it breaks. Are "
+                    "the units right? mPa is a thousandth of a pascal");
+  refuse_other_rock(file, "Contact", modulus_key(far), dem::modulus(far), bond);
+}
+
+void refuse_other_rock(const CaseFile& file, const std::string& section,
+                       const std::string& key, double modulus, const BondKeys& bond)
+{
+  const double E = dem::section(bond.chosen()).E;
+  if (ratio_apart(E, modulus) > impossible_ratio)
+    file.refuse(section, key,
+                "is more than a million times off the modulus of the bonds, " + in_mpa(E) +
+                    ". Are the units right? mPa is a thousandth of a pascal");
+}
+
+void remark_on_other_rock(Remarks& remarks, const std::string& name, double modulus,
+                          const BondKeys& bond)
+{
+  expect_at_most(remarks, "moduli of bond and " + name + ", the larger over the smaller",
+                 ratio_apart(dem::section(bond.chosen()).E, modulus), unusual_ratio,
+                 "is a unit wrong?");
+}
+
+std::string lines_of(const Remarks& remarks)
+{
+  std::string text;
+  for (const std::string& remark : remarks) text += "unusual: " + remark + '\n';
+  return text;
+}
+
+} // namespace mergel::apps

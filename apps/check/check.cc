@@ -1,0 +1,143 @@
+/// mergel check: reads and checks a case of any job, and says what would run. No results.
+#include "apps/case/words.h"
+#include "apps/run/command_line.h"
+#include "apps/run/jobs.h"
+#include "apps/run/plan.h"
+#include "apps/run/ranks.h"
+#include "apps/sample/job_of_case.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <string>
+
+namespace mergel::apps {
+
+namespace {
+
+struct CheckOptions {
+  JobOptions of_case;
+  double cost = usual_cost; ///< of a particle and step [ns]
+  int n_ranks = 0;          ///< 0: those of this program
+};
+
+/// Processor time for the making of a specimen, for each particle [s] (apps/batch/README.md).
+constexpr double seconds_to_make = 1.6e-3;
+
+const Job& job_of(const JobOptions& options)
+{
+  const CaseScan scan =
+      scan_case(read_case_text(options.case_file), options.case_file.string());
+  const char* const names[] = {"sample", "pile", "element", "triaxial", "brazilian"};
+  const std::string name =
+      scan.sections.contains("Particles")
+          ? "bond"
+          : names[static_cast<std::size_t>(job_of_case(scan, options.set))];
+  return *std::find_if(jobs.begin(), jobs.end(),
+                       [&](const Job& job) { return name == job.name; });
+}
+
+/// A whole number with its thousands apart: "6,318".
+std::string whole(double x)
+{
+  if (!(x < 1e15)) return three_digits(x);
+  std::string digits = std::to_string(std::llround(x));
+  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
+    digits.insert(static_cast<std::size_t>(at), ",");
+  return digits;
+}
+
+/// "2.5 h", "40 min", "12 s".
+std::string duration(double hours)
+{
+  if (hours >= 1.0) return three_digits(hours) + " h";
+  if (hours >= 1.0 / 60.0) return three_digits(60.0 * hours) + " min";
+  return three_digits(3600.0 * hours) + " s";
+}
+
+void line(const std::string& name, const std::string& text)
+{
+  std::string padded = name;
+  padded.resize(std::max<std::size_t>(name.size(), 9), ' ');
+  std::cout << "  " << padded << ' ' << printable(text) << '\n';
+}
+
+void print_steps(const Plan& plan, const CheckOptions& o, int n_ranks)
+{
+  if (plan.step > 0.0)
+    line("step",
+         three_digits(plan.step) +
+             " s, within some 20 %: that of the smallest particle among `coordination` "
+             "neighbours of mean size");
+  line("steps", whole(plan.n_steps) + ": " + plan.steps_by);
+  line("time", duration(hours_of(plan, o.cost, n_ranks)) + " on " +
+                   std::to_string(n_ranks) + (n_ranks == 1 ? " rank" : " ranks") + " at " +
+                   three_digits(o.cost) +
+                   " ns a particle and step (--cost; mergel bench measures it)");
+}
+
+void print(const Job& job, const Plan& plan, const CheckOptions& o)
+{
+  const int n_ranks = std::max(1, o.n_ranks);
+  std::cout << printable(o.of_case.case_file.string()) << ": a case of mergel " << job.name
+            << ", which can run\n";
+  line("particles", whole(plan.n_particles) + ": " + plan.particles_by);
+  line("bonds", three_digits(plan.bonds_per_particle) + " a particle");
+  if (plan.n_cells > 0.0) line("far field", whole(plan.n_cells) + " cells");
+  if (plan.is_made)
+    line("specimen",
+         duration(seconds_to_make * plan.n_particles / 3600.0 / n_ranks) + " to make it");
+  if (plan.n_steps > 0.0) print_steps(plan, o, n_ranks);
+  line("memory", three_digits(1e-9 * memory_of(plan)) + " GB of the first rank");
+  std::cout << lines_of(plan.unusual);
+}
+
+int run_check(CheckOptions o)
+{
+  int n_ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
+  if (o.n_ranks == 0) o.n_ranks = n_ranks;
+  on_first_rank([&] {
+    const Job& job = job_of(o.of_case);
+    print(job, job.plan(o.of_case), o);
+  });
+  return 0;
+}
+
+} // namespace
+
+void help_check(std::ostream& out)
+{
+  out << "  CASE.prm                   of any job: its sections tell which\n"
+         "  --set \"Section/key=value\"  override a key of the case file; may be repeated\n"
+         "  --ranks N                  count the hours on so many ranks; default: those of "
+         "this program\n"
+         "  --cost NS                  time of a particle and step on one core; default "
+      << usual_cost
+      << " ns\n\n"
+         "A case that a job would refuse is refused with the same message, exit code 1. Of "
+         "one that\ncan run: job, particles, step, steps, time and memory, all estimates "
+         "with their rule; then a\nline for each number that is seldom meant, with its "
+         "usual "
+         "bound. Nothing is written.\n";
+}
+
+std::function<int()> read_check(const std::vector<std::string>& arguments)
+{
+  CLI::App app;
+  CheckOptions o;
+  app.add_option("CASE.prm", o.of_case.case_file);
+  app.add_option("--set", o.of_case.set)->expected(1)->take_all();
+  app.add_option("--ranks", o.n_ranks);
+  app.add_option("--cost", o.cost);
+  parse(app, "mergel check", arguments);
+  require(!o.of_case.case_file.empty(),
+          "mergel check: no case file is given. See mergel check --help.");
+  require(std::isfinite(o.cost) && o.cost > 0.0,
+          "mergel check: --cost must be a positive number of nanoseconds.");
+  require(o.n_ranks >= 0, "mergel check: --ranks must be positive.");
+  return [o] { return run_check(o); };
+}
+
+} // namespace mergel::apps

@@ -1,0 +1,97 @@
+#include "apps/element/element_plan.h"
+
+#include "dem/specimen/forecast.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mergel::apps {
+
+void remark_on_stages(Remarks& remarks, const std::vector<dem::LoadingStage>& stages,
+                      double limit)
+{
+  for (const dem::LoadingStage& stage : stages)
+    if (!stage.returns && dem::is_strain(stage.quantity))
+      expect_at_most(remarks, "strain of the stage `" + name_of(stage) + "`",
+                     std::abs(stage.target), limit,
+                     "the test ends before, at `Loading/strain limit`");
+}
+
+Remarks unusual(const ElementCase& c)
+{
+  Remarks remarks;
+  remark_on_stages(remarks, c.stages, c.strain_limit);
+  expect_at_most(remarks, "Loading/inertial number", c.inertial_number, quasi_static,
+                 "the test is not quasi-static");
+  remark_on_specimen(remarks, c.specimen);
+  if (!c.specimen.is_granular()) remark_on_materials(remarks, c.bond, c.contact);
+  return remarks;
+}
+
+double strain_of_stages(const std::vector<dem::LoadingStage>& stages, double modulus,
+                        double limit)
+{
+  double sum = 0.0, stress = 0.0, strain = 0.0; // where the stage before has ended
+  for (const dem::LoadingStage& stage : stages) {
+    const bool resumes = stage.kind == dem::PathKind::resume;
+    if (stage.has_lateral) sum += std::abs(stage.lateral - stress) / modulus;
+    if (stage.returns)
+      sum += std::abs(strain) + std::abs(stress) / modulus;
+    else if (dem::is_strain(stage.quantity)) {
+      sum += std::min(limit, std::abs(stage.target - (resumes ? strain : 0.0)));
+      strain = stage.target;
+    } else {
+      sum += std::min(limit, std::abs(stage.target - stress) / modulus);
+      stress = stage.target;
+    }
+  }
+  return sum;
+}
+
+double estimated_modulus(const SpecimenKeys& k, const dem::PairMaterials& material)
+{
+  const dem::SpecimenSpec& s = k.specimen;
+  const double d = std::cbrt(s.sizes.mean_cube()); // S = 1: k/d does not depend on the size
+  dem::ContactStiffness<double> spring =
+      dem::contact_stiffness(material.contact, dem::sides_of_pair(0.5 * d, 0.5 * d),
+                             0.5 * dem::estimated_overlap * d);
+  double Z = dem::granular_coordination;
+  if (!k.is_granular()) {
+    const auto bond = bond_shape(dem::section(material.bond), 0.5 * d, 1.0 / d);
+    spring.k_n += bond.k_n;
+    spring.k_s += bond.k_s;
+    Z = s.coordination;
+  }
+  return 3.0 * (1.0 - s.porosity) * Z / (dem::pi * d) *
+         (spring.k_n / 5.0 + 2.0 * spring.k_s / 15.0);
+}
+
+Plan plan_of(const CaseFile& file, const ElementCase& c)
+{
+  const dem::PairMaterials material{
+      c.specimen.is_granular() ? dem::BondLaw{} : c.bond.chosen(), c.contact.chosen()};
+  Plan plan = plan_of_specimen(file, c.specimen, material, c.step.safety, c.inertia_factor);
+  plan.unusual = unusual(c);
+  const double rate =
+      c.inertial_number / (smallest_d_50(c.specimen) *
+                           std::sqrt(c.specimen.specimen.rho / c.reference_pressure));
+  plan.n_steps =
+      strain_of_stages(c.stages, estimated_modulus(c.specimen, material), c.strain_limit) /
+      (rate * plan.step);
+  plan.steps_by =
+      "strain of all stages over step and rate, the rate by `inertial number` at "
+      "`reference pressure`: fewer steps where p is higher";
+  return plan;
+}
+
+Plan plan_element(const JobOptions& options)
+{
+  CaseFile file;
+  ElementCase c;
+  declare(file, c);
+  file.read(options.case_file, options.set);
+  complete(file, c);
+  return plan_of(file, c);
+}
+
+} // namespace mergel::apps

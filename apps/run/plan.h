@@ -1,0 +1,42 @@
+/// What a case would run: sizes, steps, cost, and what is unusual of it. Estimates, each with its
+/// rule, that mergel check prints.
+#pragma once
+
+#include "apps/case/unusual.h"
+#include "apps/run/jobs.h"
+
+#include <string>
+
+namespace mergel::apps {
+
+/// Time of a particle and step on one core, all in [ns]: 70 to 105 bonded, 130 unbonded, 145 with
+/// far field (apps/batch/README.md).
+inline constexpr double usual_cost = 130.0;
+
+struct Plan {
+  double n_particles = 0.0; ///< expected, or of the specimen's file
+  std::string particles_by; ///< where the number comes from
+  double bonds_per_particle = 0.0;
+  bool is_made = false; ///< the run makes its specimen
+  double n_cells = 0.0; ///< of the far field
+  double step = 0.0;    ///< [s]; 0: the job makes none
+  double n_steps = 0.0;
+  std::string steps_by; ///< the rule
+  Remarks unusual;
+};
+
+/// Particles, bonds and time step of a specimen.
+/// @param step_safety step over stable step
+/// @throws InputError when the specimen's file cannot be read
+Plan plan_of_specimen(const CaseFile& file, const SpecimenKeys& k,
+                      const dem::PairMaterials& material, double step_safety,
+                      double inertia_factor);
+
+/// Memory of the first rank [byte], which needs most: program, then far field or particles
+/// (apps/batch/README.md, Sizing a run).
+double memory_of(const Plan& plan);
+
+/// Hours of a run. @param cost of a particle and step [ns]
+double hours_of(const Plan& plan, double cost, int n_ranks);
+
+} // namespace mergel::apps

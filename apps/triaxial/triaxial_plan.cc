@@ -1,0 +1,49 @@
+#include "apps/triaxial/triaxial_plan.h"
+
+#include "apps/element/element_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mergel::apps {
+
+Remarks unusual(const TriaxialCase& c)
+{
+  Remarks remarks;
+  remark_on_stages(remarks, c.stages, c.strain_limit);
+  expect_at_most(remarks, "Loading/inertial number", c.inertial_number, quasi_static,
+                 "the test is not quasi-static");
+  remark_on_specimen(remarks, c.specimen);
+  if (!c.specimen.is_granular()) remark_on_materials(remarks, c.bond, c.contact);
+  return remarks;
+}
+
+Plan plan_of(const CaseFile& file, const TriaxialCase& c)
+{
+  Plan plan =
+      plan_of_specimen(file, c.specimen, c.material, c.step.safety, c.inertia_factor);
+  plan.unusual = unusual(c);
+  const dem::SpecimenSpec& s = c.specimen.specimen;
+  const double E = estimated_modulus(c.specimen, c.material);
+  // v of each platen sends a wave of rho c v = v sqrt(E rho)
+  const double v = c.wave_stress / std::sqrt(E * s.rho * (1.0 - s.porosity));
+  const double by_inertia =
+      c.inertial_number / (c.d_50() * std::sqrt(s.rho / c.reference_pressure));
+  const double rate = std::min(2.0 * v / c.specimen.height, by_inertia);
+  plan.n_steps = strain_of_stages(c.stages, E, c.strain_limit) / (rate * plan.step);
+  plan.steps_by = "strain of all stages over step and rate, the rate by `wave stress` or "
+                  "`inertial number`, of a specimen that follows the strain";
+  return plan;
+}
+
+Plan plan_triaxial(const JobOptions& options)
+{
+  CaseFile file;
+  TriaxialCase c;
+  declare(file, c);
+  file.read(options.case_file, options.set);
+  complete(file, c);
+  return plan_of(file, c);
+}
+
+} // namespace mergel::apps
