@@ -1,0 +1,18 @@
+# Run by cmake --install, which has set mergel (the program), man and completions (folders).
+function(write_page file)
+  execute_process(COMMAND ${mergel} ${ARGN} OUTPUT_VARIABLE text RESULT_VARIABLE code)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${mergel} ${ARGN}: exit code ${code}")
+  endif()
+  file(WRITE ${file} "${text}")
+  message(STATUS "Installing: ${file}")
+endfunction()
+
+write_page(${completions}/mergel completion bash)
+file(STRINGS ${completions}/mergel jobs REGEX "^_mergel_jobs=")
+string(REGEX REPLACE "^_mergel_jobs='(.*)'$" "\\1" jobs "${jobs}")
+separate_arguments(jobs)
+write_page(${man}/mergel.1 man)
+foreach(job ${jobs})
+  write_page(${man}/mergel-${job}.1 man ${job})
+endforeach()
