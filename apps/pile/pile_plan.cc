@@ -32,6 +32,35 @@ double inertial_number(const PileCase& c)
          std::sqrt(c.assembly.specimen.rho / p);
 }
 
+/// Time that the stages take by their targets [s]: without what a hold, a load or an unloading
+/// needs until its equilibrium.
+double loading_time(const PileCase& c)
+{
+  // Each of the two ramps of a motion, 0.05 D_p long, takes twice its time at full velocity.
+  const double ramps = 0.1 * c.diameter;
+  double time = 0.0, tip = 0.0;
+  for (const PileStage& s : c.stages) switch (s.kind) {
+    case PileStage::Kind::penetrate:
+      time += (c.tip_at_end(s) - tip + ramps) / c.velocity;
+      tip = c.tip_at_end(s);
+      break;
+    case PileStage::Kind::pull:
+      tip -= s.target;
+      [[fallthrough]];
+    case PileStage::Kind::push:
+      time += std::abs(s.target) / c.displacement_rate;
+      break;
+    case PileStage::Kind::unload:
+    case PileStage::Kind::load:
+      time += c.force_ramp;
+      break;
+    case PileStage::Kind::hold:
+      if (std::isfinite(s.target)) time += s.target;
+      break;
+    }
+  return time;
+}
+
 } // namespace
 
 Remarks unusual(const PileCase& c)
@@ -64,10 +93,12 @@ Plan plan_of(const CaseFile& file, const PileCase& c)
     plan.n_cells =
         fem::layers({0.5 * a.far_field.chamber_diameter, a.far_field.chamber_height,
                      0.5 * a.diameter, a.height, a.far_field.cell_size, a.far_field.growth})
-            .n_cells();
-  // Each of the two ramps, 0.05 D_p long, takes twice its time at full velocity.
-  plan.n_steps = (c.travel() + 0.1 * c.diameter) / (c.velocity * plan.step);
-  plan.steps_by = "travel over penetration rate and step; some thousands more to settle";
+            .n_cells(a.far_field.extent);
+  plan.n_steps = loading_time(c) / plan.step;
+  plan.steps_by =
+      c.has_stages()
+          ? "travel and ramps over rate and step; more to reach each equilibrium"
+          : "travel over penetration rate and step; some thousands more to settle";
   return plan;
 }
 
