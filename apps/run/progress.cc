@@ -38,10 +38,11 @@ ProgressOutput ProgressOutput::standard()
 {
   ProgressOutput output;
   output.out = &std::cout;
-  output.is_terminal = isatty(STDOUT_FILENO) != 0;
+  // mpirun gives its ranks a terminal without a width, and what it forwards may go to a file.
   winsize window{};
-  const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1;
-  output.columns = is_known ? window.ws_col - 1u : 79u;
+  const bool has_width = ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1;
+  output.is_terminal = isatty(STDOUT_FILENO) != 0 && has_width;
+  if (has_width) output.columns = window.ws_col - 1u;
   output.clock = [] {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     return std::chrono::duration<double>(now).count();

@@ -19,7 +19,8 @@ struct ProgressOutput {
   std::size_t columns = 79;      ///< longest line on a terminal; it must not wrap
   std::function<double()> clock; ///< seconds since any instant, never decreasing
 
-  /// std::cout, with the width of the terminal where it is one.
+  /// std::cout, with the width of the terminal where it is one. A terminal without a width,
+  /// as that of a rank of mpirun, counts as a file.
   static ProgressOutput standard();
 };
 

@@ -3,8 +3,13 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <iostream>
 #include <sstream>
 #include <string>
+
+#include <pty.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 using namespace mergel::apps;
 using Catch::Matchers::Contains;
@@ -152,4 +157,33 @@ TEST_CASE("An open line is ended when a phase ends early", "[unit][apps]")
     Progress progress("driving", screen.output());
   }
   CHECK(screen.taken_text().empty());
+}
+
+namespace {
+
+/// What ProgressOutput::standard() finds where standard output is a terminal this wide.
+ProgressOutput output_on_terminal(unsigned short columns)
+{
+  std::cout.flush();
+  int ours = -1, theirs = -1;
+  winsize window{};
+  window.ws_row = 24;
+  window.ws_col = columns;
+  REQUIRE(openpty(&ours, &theirs, nullptr, nullptr, &window) == 0);
+  const int before = dup(STDOUT_FILENO);
+  dup2(theirs, STDOUT_FILENO);
+  const ProgressOutput found = ProgressOutput::standard();
+  dup2(before, STDOUT_FILENO);
+  for (const int number : {before, ours, theirs}) close(number);
+  return found;
+}
+
+} // namespace
+
+TEST_CASE("A terminal without a width, as mpirun gives its ranks, counts as a file",
+          "[unit][apps]")
+{
+  CHECK(output_on_terminal(120).is_terminal);
+  CHECK(output_on_terminal(120).columns == 119);
+  CHECK_FALSE(output_on_terminal(0).is_terminal);
 }
