@@ -1,5 +1,6 @@
 /// mergel bond: one bonded pair of particles along any path of u_n, u_s and theta.
 #include "apps/case/material_keys.h"
+#include "apps/case/units.h"
 #include "apps/case/words.h"
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"
@@ -167,8 +168,9 @@ std::vector<dem::RelativeMotion> corners(const CaseFile& file, const BondCase& c
   dem::Table table;
   try {
     table = dem::read_table(c.path, dem::LastLine::whole);
-    const auto &u_n = table.column("u_n", "m"), &u_s = table.column("u_s", "m"),
-               &theta = table.column("theta", "rad");
+    const auto u_n = table.column_in("u_n", "m", unit_size),
+               u_s = table.column_in("u_s", "m", unit_size),
+               theta = table.column_in("theta", "rad", unit_size);
     for (std::size_t k = 0; k < table.n_rows; ++k) {
       path.push_back({u_n[k], u_s[k], theta[k]});
       if (const std::string wrong = fault(c, path.back()); !wrong.empty())

@@ -2,6 +2,7 @@
 
 #include "apps/case/words.h"
 #include "dem/error.h"
+#include "dem/text.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -163,10 +164,13 @@ std::string read_case_text(const std::filesystem::path& path)
                      "). Check its permissions.");
 
   std::string content = text.str();
+  try {
+    content = dem::plain_text(std::move(content));
+  } catch (const InputError& e) {
+    throw InputError(name + ": " + e.what());
+  }
   if (content.find('\0') != std::string::npos)
     throw InputError(name + ": is no text file. Name a .prm file.");
-  if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3); // byte order mark
-  std::erase(content, '\r');
   return content;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/case/specimen_keys.h"
 
+#include "apps/case/units.h"
 #include "dem/io/psd_file.h"
 #include "dem/io/seal.h"
 #include "dem/text.h"
@@ -231,7 +232,7 @@ dem::SieveSizes table_of(CaseFile& file, SpecimenKeys& k)
     file.refuse("Specimen", "size table points", e.what());
   }
   try {
-    if (!is_known) sizes = dem::read_sieve_curve(k.table);
+    if (!is_known) sizes = dem::read_sieve_curve(k.table, unit_size);
   } catch (const InputError& e) {
     file.refuse("Specimen", "size table", e.what());
   }

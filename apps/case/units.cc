@@ -229,6 +229,24 @@ double to_si(const std::string& text, const std::string& si_unit)
   return *value;
 }
 
+double unit_size(const std::string& unit, const std::string& base)
+{
+  if (unit == base) return 1.0;
+  if (base == "-" && unit == "%") return 0.01;
+  if (base == "%" && unit == "-") return 100.0;
+  const auto fail = [&](const std::string& why) {
+    throw InputError("[" + unit + "] for a column in [" + base + "]: " + why);
+  };
+  if (base == "-" || base == "%" || base.empty())
+    fail("a pure number is given as it is [-] or in per cent [%].");
+  try {
+    return to_si("1 " + unit, base);
+  } catch (const InputError& error) {
+    fail(std::string(error.what()) + ".");
+    throw;
+  }
+}
+
 std::string with_unit(double value, const std::string& si_unit,
                       const std::string& shown_unit)
 {

@@ -29,6 +29,11 @@ double to_si(const std::string& text, const std::string& si_unit);
 std::string with_unit(double value, const std::string& si_unit,
                       const std::string& shown_unit = "");
 
+/// Size of a unit in another of the same dimension: 0.001 for "um" in "mm". Pure numbers have
+/// "-" and "%".
+/// @throws InputError when there is no such
+double unit_size(const std::string& unit, const std::string& base);
+
 /// A likely value in this unit, for messages: "0.63 GPa" for "Pa".
 std::string example_of(const std::string& si_unit);
 

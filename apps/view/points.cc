@@ -1,5 +1,6 @@
 #include "apps/view/points.h"
 
+#include "apps/case/units.h"
 #include "apps/case/words.h"
 #include "dem/error.h"
 

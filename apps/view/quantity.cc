@@ -136,23 +136,6 @@ void settle(PlotQuantity& quantity, const std::vector<const dem::Table*>& histor
   unit_size(quantity.unit, quantity.base); // throws if they do not fit
 }
 
-double unit_size(const std::string& unit, const std::string& base)
-{
-  if (unit == base) return 1.0;
-  if (base == "-" && unit == "%") return 0.01;
-  const auto fail = [&](const std::string& why) {
-    throw InputError("[" + unit + "] for a column in [" + base + "]: " + why);
-  };
-  if (base == "-" || base.empty())
-    fail("a pure number is drawn as it is [-] or in per cent [%]; leave the unit out.");
-  try {
-    return to_si("1 " + unit, base);
-  } catch (const InputError& error) {
-    fail(std::string(error.what()) + ".");
-    throw;
-  }
-}
-
 std::vector<double> values_of(const dem::Table& history, const PlotQuantity& quantity)
 {
   std::vector<double> values = column_of(history, quantity.name).values;

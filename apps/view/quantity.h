@@ -36,10 +36,6 @@ dem::TableColumn column_of(const dem::Table& history, const std::string& name);
 /// @throws InputError when a history lacks it, or its unit has another dimension
 void settle(PlotQuantity& quantity, const std::vector<const dem::Table*>& histories);
 
-/// One of this unit in units of the base: 1e6 for MPa and Pa, 0.01 for % and -.
-/// @throws InputError when their dimensions differ
-double unit_size(const std::string& unit, const std::string& base);
-
 /// In the unit that is shown; the quantity is settled.
 std::vector<double> values_of(const dem::Table& history, const PlotQuantity& quantity);
 

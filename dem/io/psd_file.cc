@@ -8,11 +8,11 @@
 
 namespace mergel::dem {
 
-SieveSizes read_sieve_curve(const std::filesystem::path& file)
+SieveSizes read_sieve_curve(const std::filesystem::path& file, const UnitSize& size)
 {
   const Table table = read_table(file, LastLine::whole);
-  const std::vector<double>& d = table.column("diameter", "mm");
-  const std::vector<double>& passing = table.column("passing", "%");
+  const std::vector<double> d = table.column_in("diameter", "mm", size);
+  const std::vector<double> passing = table.column_in("passing", "%", size);
   SieveSizes sizes;
   for (std::size_t row = 0; row < table.n_rows; ++row) {
     const std::string where = file.string() + ":" + std::to_string(table.lines[row]) + ": ";

@@ -2,6 +2,7 @@
 /// the share by mass below that diameter.
 #pragma once
 
+#include "dem/io/table.h"
 #include "dem/specimen/psd.h"
 
 #include <filesystem>
@@ -10,6 +11,7 @@ namespace mergel::dem {
 
 /// Diameters must ascend; passing must go from 0 to 100 and never decrease.
 /// @throws InputError naming file and line
-SieveSizes read_sieve_curve(const std::filesystem::path& file);
+/// @param size of the units in its headings, other than mm and %
+SieveSizes read_sieve_curve(const std::filesystem::path& file, const UnitSize& size);
 
 } // namespace mergel::dem

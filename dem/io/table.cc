@@ -1,12 +1,14 @@
 #include "dem/io/table.h"
 
 #include "dem/error.h"
+#include "dem/text.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 namespace mergel::dem {
 
@@ -19,15 +21,27 @@ std::string_view trimmed(std::string_view text)
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::vector<std::string_view> split(std::string_view line)
+std::vector<std::string_view> split(std::string_view line, char separator)
 {
   std::vector<std::string_view> cells;
   while (true) {
-    const std::size_t comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
+    const std::size_t end = line.find(separator);
+    cells.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return cells;
+    line.remove_prefix(end + 1);
   }
+}
+
+std::string name_of(char separator)
+{
+  return separator == ',' ? "commas" : separator == ';' ? "semicolons" : "tabs";
+}
+
+char separator_of(std::string_view headings)
+{
+  for (const char separator : {';', '\t'})
+    if (headings.find(separator) != std::string_view::npos) return separator;
+  return ',';
 }
 
 /// "tip force [N]" -> name "tip force", unit "N".
@@ -42,22 +56,41 @@ TableColumn heading(std::string_view cell)
 }
 
 /// False unless the whole cell is a number; an empty cell is NaN.
-bool parse(std::string_view cell, double& value)
+bool parse(std::string cell, char separator, double& value)
 {
   if (cell.empty()) {
     value = std::numeric_limits<double>::quiet_NaN();
     return true;
   }
-  if (cell.front() == '+') cell.remove_prefix(1);
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (separator != ',' && std::count(cell.begin(), cell.end(), ',') == 1 &&
+      cell.find('.') == std::string::npos)
+    std::replace(cell.begin(), cell.end(), ',', '.');
+  const std::size_t sign = cell.front() == '+' ? 1 : 0;
+  const auto [end, error] =
+      std::from_chars(cell.data() + sign, cell.data() + cell.size(), value);
   return error == std::errc{} && end == cell.data() + cell.size();
+}
+
+/// A text of the user's for a message: other bytes than those of plain text are written out.
+std::string shown(std::string_view text)
+{
+  std::string all;
+  for (const char c : text) {
+    constexpr char digits[] = "0123456789abcdef";
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte != 0x7f && byte < 0x80)
+      all += c;
+    else
+      all.append("\\x").append({digits[byte / 16], digits[byte % 16]});
+  }
+  return all;
 }
 
 std::string quoted_names(const Table& table)
 {
   std::string names;
   for (const TableColumn& c : table.columns)
-    names += (names.empty() ? "'" : ", '") + c.name + " [" + c.unit + "]'";
+    names += (names.empty() ? "'" : ", '") + shown(c.name + " [" + c.unit + "]") + "'";
   return names;
 }
 
@@ -85,16 +118,52 @@ const std::vector<double>& Table::column(std::string_view name, std::string_view
   return found->values;
 }
 
-Table read_table(const std::filesystem::path& file, LastLine last)
+std::vector<double> Table::column_in(std::string_view name, const std::string& unit,
+                                     const UnitSize& size) const
 {
-  std::ifstream in(file);
+  const TableColumn* found = find(*this, name);
+  if (found == nullptr) return column(name, unit); // throws
+  if (found->unit == unit) return found->values;
+  const std::string where = file.string() + ": column '" + std::string(name) + "'";
+  require(!found->unit.empty(), where +
+                                    " has no unit: write it behind its name, such as '" +
+                                    std::string(name) + " [" + unit + "]'.");
+  std::vector<double> values = found->values;
+  try {
+    const double factor = size(found->unit, unit);
+    for (double& value : values) value *= factor;
+  } catch (const InputError& e) {
+    throw InputError(where + ": " + e.what());
+  }
+  return values;
+}
+
+namespace {
+
+std::string read_text(const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
   std::error_code error; // for a name that is too long, or a folder without permission
   require(std::filesystem::is_regular_file(file, error) && in.good(),
           file.string() + ": cannot be read. Check the name and its permissions.");
+  std::ostringstream text;
+  if (in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
+  try {
+    return plain_text(text.str());
+  } catch (const InputError& e) {
+    throw InputError(file.string() + ": " + e.what());
+  }
+}
 
+} // namespace
+
+Table read_table(const std::filesystem::path& file, LastLine last)
+{
+  std::istringstream in(read_text(file));
   Table table;
   table.file = file;
   std::string line;
+  char separator = ',';
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     const std::string where = file.string() + ":" + std::to_string(number) + ": ";
     const bool is_complete = !in.eof(); // getline stopped at a newline
@@ -104,7 +173,8 @@ Table read_table(const std::filesystem::path& file, LastLine last)
       continue;
     }
 
-    const auto cells = split(line);
+    if (table.columns.empty()) separator = separator_of(line);
+    const auto cells = split(line, separator);
     if (table.columns.empty()) {
       for (const std::string_view cell : cells) {
         TableColumn column = heading(cell);
@@ -121,11 +191,13 @@ Table read_table(const std::filesystem::path& file, LastLine last)
     }
     require(cells.size() == table.columns.size(),
             where + std::to_string(cells.size()) + " values under " +
-                std::to_string(table.columns.size()) + " headings.");
+                std::to_string(table.columns.size()) + " headings, separated by " +
+                name_of(separator) + ".");
     for (std::size_t c = 0; c < cells.size(); ++c) {
       double value = 0.0;
-      require(parse(cells[c], value), where + "'" + std::string(cells[c]) + "' under '" +
-                                          table.columns[c].name + "' is not a number.");
+      require(parse(std::string(cells[c]), separator, value),
+              where + "'" + shown(cells[c]) + "' under '" + shown(table.columns[c].name) +
+                  "' is not a number.");
       table.columns[c].values.push_back(value);
     }
     ++table.n_rows;

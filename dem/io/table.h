@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,10 @@ struct TableColumn {
   /// One per record; NaN where the run had no value ("nan" or empty).
   std::vector<double> values;
 };
+
+/// Size of a unit in another of the same dimension: 0.001 for "um" in "mm".
+/// @throws InputError when there is no such
+using UnitSize = std::function<double(const std::string& unit, const std::string& in)>;
 
 /// Every column has n_rows values.
 struct Table {
@@ -34,6 +39,11 @@ struct Table {
   /// @throws InputError naming the file, the missing name and unit, and the columns that
   ///   exist
   const std::vector<double>& column(std::string_view name, std::string_view unit) const;
+
+  /// The values of a column in this unit, whatever unit its heading carries.
+  /// @throws InputError as above, and when the heading has no unit or one of another dimension
+  std::vector<double> column_in(std::string_view name, const std::string& unit,
+                                const UnitSize& size) const;
 };
 
 /// Whether a last line without a newline counts.
@@ -42,7 +52,9 @@ enum class LastLine {
   may_be_cut ///< no: a run may be writing it, and "1.2" may be the beginning of "1.25"
 };
 
-/// Read a table. Lines that begin with # are remarks.
+/// Read a table. Lines that begin with # are remarks. Commas, semicolons or tabs separate the
+/// columns: what the line of headings has of them, semicolons first, then tabs. Where it is not
+/// commas, a number may have a decimal comma.
 /// @throws InputError naming file and line: file not readable, no record, a line with too
 ///   few or too many values, a value that is no number, two columns with one name
 Table read_table(const std::filesystem::path& file, LastLine last = LastLine::may_be_cut);

@@ -235,8 +235,14 @@ path='bond\.prm:[0-9]+: Loading/path = .*'
 corner() { printf '%s\n' "$@" >bond_fig5a.csv; }
 head='u_n [m],u_s [m],theta [rad]'
 refuse "path that does not exist" "$path: .*bond_fig5a\.csv: cannot be read\. .*" bond bond.prm --output out
-corner 'u_n [mm],u_s [m],theta [rad]' 0.1,0,0
-refuse "path in another unit" "$path: .*no column 'u_n \[m\]'; there are 'u_n \[mm\]', .*" bond bond.prm --output out
+corner 'u_n [MPa],u_s [m],theta [rad]' 0.1,0,0
+refuse "path in a wrong unit" "$path: .*column 'u_n': \[MPa\] for a column in \[m\]: .*wrong dimension.*" bond bond.prm --output out
+corner 'u_n,u_s [m],theta [rad]' 0.1,0,0
+refuse "path without a unit" "$path: .*column 'u_n' has no unit: write it behind its name, such as 'u_n \[m\]'\." bond bond.prm --output out
+corner 'u_n [m];u_s [m];theta [rad]' '1e-4,0,0'
+refuse "path with two separators" "$path: .*:2: 1 values under 3 headings, separated by semicolons\." bond bond.prm --output out
+printf '\xff\xfeu\0' >bond_fig5a.csv
+refuse "path in UTF-16" "$path: .*is UTF-16, not UTF-8: save it as \"CSV UTF-8\" or as plain text" bond bond.prm --output out
 corner 'u_n [m],theta [rad]' 1e-4,0
 refuse "path without a column" "$path: .*no column 'u_s \[m\]'; .*" bond bond.prm --output out
 corner "$head"
@@ -248,7 +254,7 @@ refuse "path with nan" "$path: .*:3: every motion must be a finite number" bond 
 corner "$head" 1e-4,0,0 2e-4,,0
 refuse "path with an empty value" "$path: .*:3: every motion must be a finite number" bond bond.prm --output out
 corner "$head" 1e-4,0
-refuse "path with a short line" "$path: .*:2: 2 values under 3 headings\." bond bond.prm --output out
+refuse "path with a short line" "$path: .*:2: 2 values under 3 headings, separated by commas\." bond bond.prm --output out
 corner "$head" 1e-4,0,0 -20e-3,0,0
 refuse "path through the particles" "$path: .*:3: u_n = -0\.02 m makes the particles overlap .*at least -0\.01775 m" bond bond.prm --output out
 corner "$head" 1e-4,4,0

@@ -1,5 +1,6 @@
 #include "apps/view/laboratory/measured.h"
 
+#include "apps/case/units.h"
 #include "apps/case/words.h"
 #include "apps/laboratory/stages.h"
 #include "dem/error.h"

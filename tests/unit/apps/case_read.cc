@@ -51,8 +51,11 @@ TEST_CASE("A case with carriage returns and a byte order mark reads the same",
 {
   const WorkingFolder folder;
   std::string dos = "\xEF\xBB\xBF";
+  std::string mac = dos;
   for (const char c : good) dos += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  for (const char c : good) mac += c == '\n' ? '\r' : c;
   CHECK(read_text(dos) == read_text(good));
+  CHECK(read_text(mac) == read_text(good));
 }
 
 TEST_CASE("--set overrides the file and is named in messages", "[unit][apps]")

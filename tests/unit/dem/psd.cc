@@ -27,6 +27,11 @@ std::vector<Grading> all_curves()
           Grading(SieveSizes{{0.05e-3, 0.1e-3, 0.15e-3, 0.2e-3}, {0.0, 0.3, 0.3, 1.0}})};
 }
 
+double no_other_unit(const std::string& unit, const std::string&)
+{
+  throw mergel::InputError("[" + unit + "]");
+}
+
 /// Error message of read_sieve_curve for this text; empty if it is accepted.
 std::string refusal(const std::string& text)
 {
@@ -34,7 +39,7 @@ std::string refusal(const std::string& text)
   std::ofstream(file) << text;
   std::string said;
   try {
-    read_sieve_curve(file);
+    read_sieve_curve(file, no_other_unit);
   } catch (const mergel::InputError& e) {
     said = e.what();
   }
@@ -105,7 +110,7 @@ TEST_CASE("A log-normal curve far from its bounds has its median by mass", "[uni
 
 TEST_CASE("maastricht.csv is the curve uniform by number within 0.001", "[unit][dem]")
 {
-  const Grading table(read_sieve_curve(shipped)), wanted(paper);
+  const Grading table(read_sieve_curve(shipped, no_other_unit)), wanted(paper);
   CHECK(table.smallest() == Approx(0.066e-3).epsilon(1e-12));
   CHECK(table.largest() == Approx(0.1337e-3).epsilon(1e-12));
   for (int k = 1; k < 100; ++k) {
@@ -129,7 +134,7 @@ TEST_CASE("An invalid sieve curve is refused with its line", "[unit][dem]")
   CHECK_THAT(refusal(head + "-0.1,0\n0.2,100\n"), Contains(":2: diameter = -0.1 mm"));
   CHECK_THAT(refusal(head + "0.1,nan\n0.2,100\n"), Contains(":2: passing = nan %"));
   CHECK_THAT(refusal("diameter [m],passing [%]\n1,0\n2,100\n"),
-             Contains("no column 'diameter [mm]'"));
+             Contains("column 'diameter': [m]"));
 }
 
 TEST_CASE("Grading parameters out of range are refused", "[unit][dem]")

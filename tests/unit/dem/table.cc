@@ -115,6 +115,44 @@ TEST_CASE("missing values are NaN", "[unit][dem]")
   CHECK(std::isnan(table.column("b", "-")[0]));
 }
 
+TEST_CASE("a table is the same whatever program wrote it", "[unit][dem]")
+{
+  const std::vector<double> u{0.0, 0.5}, s{1.0, -2e-3};
+  for (const char* text :
+       {"u [mm],s [m]\n0,1\n0.5,-2e-3\n",
+        "\xEF\xBB\xBFu [mm],s [m]\r\n0,1\r\n0.5,-2e-3\r\n",
+        "u [mm],s [m]\r0,1\r0.5,-2e-3\r", "u [mm];s [m]\r\n0;+1\r\n0,5;-2e-3\r\n",
+        "u [mm]\ts [m]\n0\t1\n0,5\t-2e-3\n"}) {
+    CAPTURE(text);
+    const File file(text);
+    const Table table = read_table(file.path, LastLine::whole);
+    CHECK(table.column("u", "mm") == u);
+    CHECK(table.column("s", "m") == s);
+  }
+}
+
+TEST_CASE("a column is given in any unit whose size is known", "[unit][dem]")
+{
+  const File file("u [mm],s\n0.5,1\n");
+  const Table table = read_table(file.path, LastLine::whole);
+  const UnitSize size = [](const std::string& unit, const std::string& in) {
+    if (unit != "mm" || in != "m") throw InputError("[" + unit + "] is no [" + in + "]");
+    return 1e-3;
+  };
+  CHECK(table.column_in("u", "m", size) == std::vector<double>{0.5 * 1e-3});
+  CHECK(table.column_in("u", "mm", {}) == std::vector<double>{0.5});
+  CHECK_THROWS_WITH(table.column_in("u", "s", size),
+                    Catch::Contains("column 'u': [mm] is no [s]"));
+  CHECK_THROWS_WITH(table.column_in("s", "m", size), Catch::Contains("has no unit"));
+  CHECK_THROWS_WITH(table.column_in("v", "m", size), Catch::Contains("no column 'v [m]'"));
+}
+
+TEST_CASE("bytes that are no plain text are written out in messages", "[unit][dem]")
+{
+  CHECK_THAT(message_of("a [m]\n\xC2\xA0\x01\n"),
+             Catch::Contains("'\\xc2\\xa0\\x01' under 'a' is not a number"));
+}
+
 TEST_CASE("a damaged history is refused with file and line", "[unit][dem]")
 {
   const std::string head = "time [s],depth [m]\n";
