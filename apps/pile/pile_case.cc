@@ -41,11 +41,11 @@ void declare_loading(CaseFile& file, PileCase& c)
                "1e-3",
                "Unbalanced-force ratio at which hold, load and unload end; looked at every "
                "100 steps.");
-  file.derived(
-      "largest settlement", c.largest_settlement, "m", positive, "Pile/diameter/10",
-      "Motion along the axis at which a stage with a prescribed head force ends: the "
-      "bearing capacity. The head then holds the pile.",
-      "mm");
+  file.derived("largest settlement", c.largest_settlement, "m", positive,
+               "Pile/diameter/10",
+               "Settlement at which a stage with a prescribed head force ends: the "
+               "bearing capacity. The head then holds the pile.",
+               "mm");
 }
 
 /// Read the stages, or the final depth, which stands for one.

@@ -121,6 +121,9 @@ bool StageRun::is_in_equilibrium()
   if (n_steps_ < dem::steps_between_step_checks) return false;
   if (coupled_.n_steps % dem::steps_between_step_checks != 0) return false;
   if (stage().is_by_force() && time_ < case_.force_ramp) return false;
+  constexpr double at_rest =
+      0.01; // of the penetration rate, as at the end of a penetration
+  if (std::abs(pile().v.z()) > at_rest * case_.velocity) return false;
   const double scale = largest_force_ > 0.0 ? largest_force_ : 1.0;
   if (head_.unbalanced(pile(), scale) > case_.balance_tolerance) return false;
   return coupled_.unbalanced() <= case_.balance_tolerance;
@@ -134,7 +137,7 @@ bool StageRun::is_over()
   if (s.kind == Kind::pull) return displaced() >= s.target;
   if (coupled_.n_steps % dem::steps_between_step_checks == 0) require_heavy();
   if (head_.control() != HeadControl::velocity &&
-      std::abs(tip_depth() - tip_) > case_.largest_settlement) {
+      tip_depth() - tip_ > case_.largest_settlement) {
     has_capacity_ = true;
     head_.prescribe_velocity(pile());
     return true;

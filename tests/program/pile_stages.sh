@@ -18,7 +18,7 @@ holds() { awk "BEGIN { exit !($1) }" || fail "$2: $1"; }
 
 sed '/set final depth/d' "$case_file" >stages.prm
 case_file=stages.prm
-options=("${tiny[@]}" --set "Pile/cone angle=120 degree" --set "Output/frames=2" --set "Loading/force ramp=0.02 ms"
+options=("${tiny[@]}" --set "Pile/cone angle=120 degree" --set "Output/frames=2"
   --set "Loading/unbalanced-force tolerance=2e-2")
 pile "$case_file" "${options[@]}" --set "Loading/stage 1=penetrate to depth = 0.01 mm" --output first >log || fail "the first stage: $(tail -3 log)"
 options+=(--set "Specimen/file=$work/first/sample.h5" --set "Loading/stage 1=penetrate to depth = 0.15 mm")
