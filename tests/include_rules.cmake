@@ -48,10 +48,11 @@ set(dem_floors
     "walls: math particles laws pairs"
     "parallel: math particles"
     "assembly: math particles laws pairs walls parallel"
+    "continuum: math particles laws pairs walls parallel assembly"
     "specimen: math particles laws pairs walls parallel assembly"
     "element: math particles laws pairs walls parallel assembly"
     "io/hdf5: math particles"
-    "io: math particles laws pairs walls parallel assembly specimen element io/hdf5"
+    "io: math particles laws pairs walls parallel assembly continuum specimen element io/hdf5"
     "io/state: math particles laws pairs walls parallel assembly specimen element io/hdf5 io")
 set(fem_floors
     "solid"
@@ -77,8 +78,8 @@ set(apps_floors
     "compare: case run laboratory"
     "view: case laboratory"
     "view/bond: case view"
-    "view/pile: case view"
-    "view/laboratory: case laboratory view")
+    "view/laboratory: case laboratory view"
+    "view/pile: case view view/laboratory")
 
 # Loose files that stand above the folders: they see all of the package.
 set(apps_top mergel.cc view/view.cc)

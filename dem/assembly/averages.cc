@@ -1,5 +1,7 @@
 #include "dem/assembly/averages.h"
 
+#include "dem/assembly/branches.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,23 +27,6 @@ void list(ExactReduction& sums, TensorSum& sum)
 {
   for (auto& row : sum) sums.add(row);
 }
-
-/// Geometry of a pair at the present positions.
-struct Branch {
-  Vec3 r; ///< from i to j [m]
-  double L, radius, S;
-
-  Branch(const Assembly& assembly, const Pair& q)
-  {
-    const ParticleState &i = assembly.particles.state[q.i],
-                        &j = assembly.particles.state[q.j];
-    r = j.x + assembly.cell.offset(q.shift) - i.x;
-    L = i.R + j.R;
-    radius = std::min(i.R, j.R);
-    S = 0.5 * (i.S + j.S);
-  }
-  Vec3 n() const { return r.normalized(); }
-};
 
 /// Along each axis, the number of cells between a particle and its image in the cell at the
 /// origin.
@@ -162,35 +147,6 @@ double share_inside(const Vec3& x, const Vec3& r, const Vec3& low, const Vec3& h
   return std::max(0.0, to - from);
 }
 
-/// Show the force F on the first particle of each loaded bond and contact to
-/// `visit(x, r, F)`; x is the centre of that particle, r the branch to the second.
-template <class Visit>
-void visit_branches(const Assembly& assembly, Visit&& visit)
-{
-  const Particles& p = assembly.particles;
-  const auto visit_contact = [&](const Pair& q, const Vec3& f_s) {
-    const double f_n =
-        read_contact(q, f_s, p, assembly.cell, assembly.material.contact).f_n;
-    if (f_n == 0.0) return;
-    const Branch b(assembly, q);
-    visit(p.state[q.i].x, b.r, Vec3(f_s - f_n * b.n()));
-  };
-  for (std::size_t k = 0; k < assembly.bonds.size(); ++k) {
-    const Pair& q = assembly.bonds.pairs[k];
-    if (!p.owns(q.i)) continue;
-    if (assembly.bonds.intact(k) > 0.0) {
-      const Branch b(assembly, q);
-      const BondReading bond =
-          read_bond(assembly.bonds, k, p, assembly.cell, assembly.material.bond);
-      visit(p.state[q.i].x, b.r, Vec3(bond.N * b.n() + bond.V));
-    }
-    visit_contact(q, contact_shear_of(assembly.bonds, k));
-  }
-  for (std::size_t c = 0; c < assembly.contacts.pairs.size(); ++c)
-    if (p.owns(assembly.contacts.pairs[c].i))
-      visit_contact(assembly.contacts.pairs[c], assembly.contacts.shear[c].f_s);
-}
-
 /// Sum of all ranks over the volume, symmetric part.
 Mat3 stress_of(TensorSum& virial, double volume, const Communicator& comm)
 {
@@ -210,7 +166,9 @@ Mat3 slab_stress(const Assembly& assembly, double z_low, double z_high, double a
     const double share = share_between(from.z(), from.z() + r.z(), z_low, z_high);
     if (share > 0.0) add(virial, share * F * r.transpose());
   };
-  visit_branches(assembly, add_force);
+  visit_branches(assembly, [&](const Pair& q, const Branch& b, const Vec3& F) {
+    add_force(assembly.particles.state[q.i].x, b.r, F);
+  });
   for (const Wall& wall : assembly.walls)
     for (const WallContactForce& c : wall.contact_forces) {
       const Vec3& x = assembly.particles.state[c.particle].x;
@@ -222,9 +180,9 @@ Mat3 slab_stress(const Assembly& assembly, double z_low, double z_high, double a
 Mat3 box_stress(const Assembly& assembly, const Vec3& low, const Vec3& high, double volume)
 {
   TensorSum virial;
-  visit_branches(assembly, [&](const Vec3& x, const Vec3& r, const Vec3& F) {
-    const double share = share_inside(x, r, low, high);
-    if (share > 0.0) add(virial, share * F * r.transpose());
+  visit_branches(assembly, [&](const Pair& q, const Branch& b, const Vec3& F) {
+    const double share = share_inside(assembly.particles.state[q.i].x, b.r, low, high);
+    if (share > 0.0) add(virial, share * F * b.r.transpose());
   });
   return stress_of(virial, volume, assembly.comm);
 }
@@ -233,31 +191,12 @@ std::vector<Mat3> particle_stresses(const Assembly& assembly)
 {
   const Particles& p = assembly.particles;
   std::vector<Mat3> sum(p.size(), Mat3::Zero()); // [J]
-  const auto add_force = [&](const Pair& q, const Branch& b, const Vec3& F) {
+  visit_branches(assembly, [&](const Pair& q, const Branch& b, const Vec3& F) {
     const double half_gap = 0.5 * (b.r.norm() - b.L);
     const Mat3 moment = F * b.n().transpose();
     sum[q.i] += (p.state[q.i].R + half_gap) * moment;
     sum[q.j] += (p.state[q.j].R + half_gap) * moment;
-  };
-  const auto add_contact = [&](const Pair& q, const Vec3& f_s) {
-    const double f_n =
-        read_contact(q, f_s, p, assembly.cell, assembly.material.contact).f_n;
-    if (f_n == 0.0) return;
-    const Branch b(assembly, q);
-    add_force(q, b, f_s - f_n * b.n());
-  };
-  for (std::size_t k = 0; k < assembly.bonds.size(); ++k) {
-    const Pair& q = assembly.bonds.pairs[k];
-    if (assembly.bonds.intact(k) > 0.0) {
-      const Branch b(assembly, q);
-      const BondReading bond =
-          read_bond(assembly.bonds, k, p, assembly.cell, assembly.material.bond);
-      add_force(q, b, bond.N * b.n() + bond.V);
-    }
-    add_contact(q, contact_shear_of(assembly.bonds, k));
-  }
-  for (std::size_t c = 0; c < assembly.contacts.pairs.size(); ++c)
-    add_contact(assembly.contacts.pairs[c], assembly.contacts.shear[c].f_s);
+  });
 
   double solid = 0.0; // [m^3]
   for (const ParticleState& b : p.state) solid += sphere_mass(b.R, 1.0);

@@ -1,5 +1,6 @@
 #include "dem/assembly/local_strain.h"
 
+#include "dem/assembly/neighbourhood.h"
 #include "dem/pairs/neighbours.h"
 
 #include <Eigen/Eigenvalues>
@@ -64,16 +65,6 @@ Particles at(const std::vector<Vec3>& X, const std::vector<double>& R)
   return p;
 }
 
-/// Pairs of neighbours in the reference, each once.
-std::vector<Pair> neighbours(const std::vector<Vec3>& X, const std::vector<double>& R,
-                             const PeriodicCell& cell)
-{
-  std::vector<double> extra;
-  extra.reserve(R.size());
-  for (const double r : R) extra.push_back((neighbour_reach - 1.0) * r);
-  return find_pairs(at(X, R), cell, 0.0, extra);
-}
-
 Vec3 centroid(const std::vector<Vec3>& x, const std::vector<Index>& indices)
 {
   Vec3 sum = Vec3::Zero();
@@ -82,6 +73,15 @@ Vec3 centroid(const std::vector<Vec3>& x, const std::vector<Index>& indices)
 }
 
 } // namespace
+
+std::vector<Pair> neighbours(const std::vector<Vec3>& x, const std::vector<double>& R,
+                             const PeriodicCell& cell)
+{
+  std::vector<double> extra;
+  extra.reserve(R.size());
+  for (const double r : R) extra.push_back((neighbour_reach - 1.0) * r);
+  return find_pairs(at(x, R), cell, 0.0, extra);
+}
 
 std::vector<DeformationFit> local_deformations(const std::vector<Vec3>& X,
                                                const std::vector<Vec3>& x,

@@ -2,6 +2,7 @@
 
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "dem/io/grid_file.h"
 #include "dem/version.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -25,6 +27,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkXMLDataElement.h>
+#include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUtilities.h>
 
@@ -90,13 +93,14 @@ void add_fields(const std::vector<Field>& fields, std::size_t n, const fs::path&
 
 /// Composed in memory and written by replace_file(): the writer of VTK 9.1 does not check
 /// that its last buffer reached the disk.
-void write(const fs::path& file, vtkPolyData* data)
+template <class Writer, class Data>
+void write(const fs::path& file, Data* data)
 {
   vtkNew<vtkStringArray> made_by;
   made_by->SetName("made by");
   made_by->InsertNextValue(program_text());
   data->GetFieldData()->AddArray(made_by);
-  vtkNew<vtkXMLPolyDataWriter> writer;
+  vtkNew<Writer> writer;
   writer->SetInputData(data);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
@@ -154,7 +158,7 @@ void write_points(const fs::path& file, const std::vector<Vec3>& x,
   data->SetPoints(points(x));
   data->SetVerts(cells(vertices, x.size(), file));
   add_fields(point_fields, x.size(), file, data->GetPointData());
-  write(file, data);
+  write<vtkXMLPolyDataWriter>(file, data.Get());
 }
 
 void write_lines(const fs::path& file, const std::vector<Vec3>& x,
@@ -165,7 +169,7 @@ void write_lines(const fs::path& file, const std::vector<Vec3>& x,
   data->SetPoints(points(x));
   data->SetLines(cells(lines, x.size(), file));
   add_fields(line_fields, lines.size(), file, data->GetCellData());
-  write(file, data);
+  write<vtkXMLPolyDataWriter>(file, data.Get());
 }
 
 void write_surface(const fs::path& file, const std::vector<Vec3>& x,
@@ -176,7 +180,25 @@ void write_surface(const fs::path& file, const std::vector<Vec3>& x,
   data->SetPoints(points(x));
   data->SetPolys(cells(triangles, x.size(), file));
   add_fields(point_fields, x.size(), file, data->GetPointData());
-  write(file, data);
+  write<vtkXMLPolyDataWriter>(file, data.Get());
+}
+
+std::size_t PointGrid::size() const
+{
+  std::size_t product = 1;
+  for (const int along : n) product *= static_cast<std::size_t>(along);
+  return product;
+}
+
+void write_grid(const fs::path& file, const PointGrid& grid,
+                const std::vector<Field>& point_fields)
+{
+  vtkNew<vtkImageData> data;
+  data->SetDimensions(grid.n.data());
+  data->SetOrigin(grid.origin.data());
+  data->SetSpacing(grid.h, grid.h, grid.h);
+  add_fields(point_fields, grid.size(), file, data->GetPointData());
+  write<vtkXMLImageDataWriter>(file, data.Get());
 }
 
 Series::Series(fs::path pvd, std::vector<SeriesEntry> earlier)

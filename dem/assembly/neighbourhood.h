@@ -1,0 +1,16 @@
+/// Which particles are neighbours (local_strain.h).
+#pragma once
+
+#include "dem/assembly/local_strain.h"
+#include "dem/pairs/pairs.h"
+
+namespace mergel::dem {
+
+/// Pairs with |x_j - x_i| < neighbour_reach (R_i + R_j), each once, ascending.
+/// @param x positions [m], never wrapped; @param R radii [m], > 0
+/// @throws InputError when a periodic edge is shorter than 4 neighbour_reach times the largest
+///   radius
+std::vector<Pair> neighbours(const std::vector<Vec3>& x, const std::vector<double>& R,
+                             const PeriodicCell& cell = {});
+
+} // namespace mergel::dem

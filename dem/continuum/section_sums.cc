@@ -1,0 +1,198 @@
+#include "dem/continuum/section_sums.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mergel::dem {
+
+SectionSum& SectionSum::operator+=(const SectionSum& b)
+{
+  volume += b.volume;
+  solid += b.solid;
+  virial += b.virial;
+  displacement += b.displacement;
+  increment += b.increment;
+  damage += b.damage;
+  coordination += b.coordination;
+  volumetric += b.volumetric;
+  shear += b.shear;
+  return *this;
+}
+
+double SectionAverage::q() const
+{
+  const Mat3 deviator = stress - stress.trace() / 3.0 * Mat3::Identity();
+  return std::sqrt(1.5) * deviator.norm();
+}
+
+PrincipalStress SectionAverage::principal() const
+{
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(stress);
+  const Vec3& sigma = solver.eigenvalues(); // ascending, tension positive
+  Vec3 direction = solver.eigenvectors().col(0);
+  if (direction.z() < 0.0) direction = -direction;
+  return {-sigma[0], -sigma[1], -sigma[2], direction};
+}
+
+namespace {
+
+/// Points of a cubic lattice in the unit sphere.
+std::vector<Vec3> unit_points()
+{
+  constexpr int n = 8; // across the diameter
+  std::vector<Vec3> points;
+  const auto at = [](int k) { return (2.0 * k + 1.0) / n - 1.0; };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k)
+        if (const Vec3 x(at(i), at(j), at(k)); x.squaredNorm() < 1.0) points.push_back(x);
+  return points;
+}
+
+/// The places s in (0, 1) where x + s r crosses the plane of this coordinate, multiples of h away
+/// from `low`.
+void add_planes(std::vector<double>& cuts, double x, double r, double low, double h)
+{
+  if (r == 0.0) return; // parallel
+  const auto [from, to] = std::minmax((x - low) / h, (x + r - low) / h);
+  for (double k = std::ceil(from); k <= to; k += 1.0) cuts.push_back((k * h + low - x) / r);
+}
+
+/// The same for the cylinders about the z axis whose radii are multiples of h.
+void add_cylinders(std::vector<double>& cuts, const Vec3& x, const Vec3& r, double h)
+{
+  const double a = r.x() * r.x() + r.y() * r.y();
+  if (a == 0.0) return; // vertical
+  const double b = (x.x() * r.x() + x.y() * r.y()) / a, c = x.x() * x.x() + x.y() * x.y();
+  const double nearest = std::clamp(-b, 0.0, 1.0); // s of the smallest radius
+  const auto radius = [&](double s) {
+    return std::hypot(x.x() + s * r.x(), x.y() + s * r.y());
+  };
+  const double lowest = radius(nearest), most = std::max(std::sqrt(c), radius(1.0));
+  for (double k = std::max(1.0, std::ceil(lowest / h)); k * h <= most; k += 1.0) {
+    const double root = std::sqrt(std::max(0.0, b * b - (c - k * k * h * h) / a));
+    cuts.push_back(-b - root);
+    cuts.push_back(-b + root);
+  }
+}
+
+/// As seen from the other side of the axis: right is left.
+SectionSum mirrored(SectionSum sum)
+{
+  const Vec3 flip(-1.0, 1.0, 1.0);
+  sum.virial = (flip.asDiagonal() * sum.virial * flip.asDiagonal()).eval();
+  sum.displacement.x() *= -1.0;
+  sum.increment.x() *= -1.0;
+  return sum;
+}
+
+} // namespace
+
+SectionSums::SectionSums(const SectionGrid& grid, const Particles& p,
+                         const std::vector<LoadedBranch>& branches,
+                         const ParticleValues& values, const RigidWall* pile)
+    : grid_(grid), cells_(grid.size())
+{
+  const Revolution* shape = pile ? std::get_if<Revolution>(&pile->shape) : nullptr;
+  const Vec3 x = pile ? pile->x : Vec3::Zero();
+  for (int row = 0; row < grid.n_z; ++row)
+    for (int column = 0; column < grid.n_columns(); ++column)
+      cells_[grid.index(column, row)].volume = grid.volume(column, row, shape, x);
+  for (const LoadedBranch& b : branches) add(b, p.state[b.i].x);
+  for (Index i = 0; i < p.size(); ++i) add(p.state[i], i, values);
+}
+
+void SectionSums::add(const LoadedBranch& b, const Vec3& x)
+{
+  std::vector<double> cuts{0.0, 1.0};
+  add_planes(cuts, x.z(), b.r.z(), grid_.z_low, grid_.h);
+  add_planes(cuts, x.x(), b.r.x(), 0.0, std::abs(x.x()) + std::abs(b.r.x()) + grid_.h);
+  add_cylinders(cuts, x, b.r, grid_.h);
+  std::erase_if(cuts, [](double s) { return !(s >= 0.0 && s <= 1.0); });
+  std::sort(cuts.begin(), cuts.end());
+  for (std::size_t k = 1; k < cuts.size(); ++k) {
+    const double share = cuts[k] - cuts[k - 1];
+    if (share <= 0.0) continue;
+    const Vec3 middle = x + 0.5 * (cuts[k - 1] + cuts[k]) * b.r;
+    const std::ptrdiff_t at = grid_.cell_at(middle);
+    if (at < 0) continue;
+    const Mat3 axes = section_axes(middle, middle.x() < 0.0);
+    cells_[static_cast<std::size_t>(at)].virial +=
+        share * (axes * b.F) * (axes * b.r).transpose();
+  }
+}
+
+void SectionSums::add(const ParticleState& b, Index i, const ParticleValues& values)
+{
+  static const std::vector<Vec3> points = unit_points();
+  const double share = sphere_mass(b.R, 1.0) / static_cast<double>(points.size());
+  std::vector<std::pair<std::ptrdiff_t, double>> found; // cell, volume
+  for (const Vec3& point : points) {
+    const std::ptrdiff_t at = grid_.cell_at(b.x + b.R * point);
+    if (at < 0) continue;
+    const auto known = std::find_if(found.begin(), found.end(),
+                                    [&](const auto& f) { return f.first == at; });
+    if (known == found.end())
+      found.push_back({at, share});
+    else
+      known->second += share;
+  }
+  for (const auto& cell_and_volume : found) {
+    const auto k = static_cast<std::size_t>(cell_and_volume.first);
+    const double v = cell_and_volume.second;
+    const int column = static_cast<int>(k % static_cast<std::size_t>(grid_.n_columns()));
+    const Mat3 axes = section_axes(b.x, grid_.is_left(column));
+    SectionSum& cell = cells_[k];
+    cell.solid += v;
+    cell.displacement += v * (axes * values.displacement[i]);
+    cell.increment += v * (axes * values.increment[i]);
+    cell.damage += v * values.damage[i];
+    cell.coordination += v * values.coordination[i];
+    cell.volumetric += v * values.volumetric[i];
+    cell.shear += v * values.shear[i];
+  }
+}
+
+SectionSum SectionSums::window(int column, int row, int reach) const
+{
+  SectionSum sum;
+  for (int k = std::max(0, row - reach); k <= std::min(grid_.n_z - 1, row + reach); ++k)
+    for (int c = std::max(0, column - reach);
+         c <= std::min(grid_.n_columns() - 1, column + reach); ++c)
+      sum += cell(c, k);
+  return sum;
+}
+
+SectionSum SectionSums::between(double r_from, double r_to, double z_from,
+                                double z_to) const
+{
+  SectionSum sum;
+  for (int row = 0; row < grid_.n_z; ++row) {
+    const double z = grid_.z_middle(row);
+    if (z < z_from || z >= z_to) continue;
+    for (int column = 0; column < grid_.n_columns(); ++column) {
+      const double r = std::abs(grid_.r_middle(column));
+      if (r < r_from || r >= r_to) continue;
+      sum += grid_.is_left(column) ? mirrored(cell(column, row)) : cell(column, row);
+    }
+  }
+  return sum;
+}
+
+SectionAverage SectionSums::average(const SectionSum& sum)
+{
+  SectionAverage a;
+  a.stress = 0.5 / sum.volume * (sum.virial + sum.virial.transpose());
+  a.porosity = 1.0 - sum.solid / sum.volume;
+  a.displacement = sum.displacement / sum.solid;
+  a.increment = sum.increment / sum.solid;
+  a.damage = sum.damage / sum.solid;
+  a.coordination = sum.coordination / sum.solid;
+  a.volumetric = sum.volumetric / sum.solid;
+  a.shear = sum.shear / sum.solid;
+  return a;
+}
+
+} // namespace mergel::dem
