@@ -268,7 +268,7 @@ void print_summary(const std::filesystem::path& folder, const Record& record)
             << (record.D == 1.0 ? ", broken" : "")
             << "\nenergy error: work minus stored and dissipated energy is at most "
             << 100.0 * record.energy_error() << " % of these, in " << record.n_records - 1
-            << " steps\nresults: " << folder.string()
+            << " steps\nresults: " << printable(folder.string())
             << " (history.csv, summary.json); pictures: mergel-view "
             << in_shell(folder.string()) << "\n";
 }

@@ -78,9 +78,12 @@ double smallest_d_50(const SpecimenKeys& k)
 void remark_on_specimen(Remarks& remarks, const SpecimenKeys& k)
 {
   const dem::SpecimenSpec& s = k.specimen;
+  // The side of a half cylinder has two faces until the mesh around it is made.
+  const double width = k.shape == SpecimenKeys::Shape::half_cylinder
+                           ? std::min(0.5 * k.diameter, k.height)
+                           : dem::smallest_width(s.region);
   expect_at_least(remarks, "width of the region/d50",
-                  dem::smallest_width(s.region) /
-                      (s.sizes.sieve(0.5) * std::max(s.scale.S_inner, s.scale.S_outer)),
+                  width / (s.sizes.sieve(0.5) * std::max(s.scale.S_inner, s.scale.S_outer)),
                   fewest_across, "so few particles are no continuum");
   expect_at_most(remarks, "Specimen/coordination", s.coordination, most_coordination,
                  "packings do not reach it");

@@ -86,14 +86,18 @@ Remarks unusual(const PileCase& c)
 
 Plan plan_of(const CaseFile& file, const PileCase& c)
 {
-  const CoupledCase& a = c.assembly;
+  CoupledCase a = c.assembly;
+  const fem::FarFieldLayers layers =
+      fem::layers({0.5 * a.far_field.chamber_diameter, a.far_field.chamber_height,
+                   0.5 * a.diameter, a.height, a.far_field.cell_size, a.far_field.growth});
+  // Its side has two faces until the mesh is made.
+  if (auto* half = std::get_if<dem::HalfCylinder>(&a.specimen.region))
+    half->segments = layers.n_around;
+  else
+    std::get<dem::Cylinder>(a.specimen.region).segments = 2 * layers.n_around;
   Plan plan = plan_of_specimen(file, a, a.material, a.step.safety, a.inertia_factor);
   plan.unusual = unusual(c);
-  if (a.model == coupling::FarFieldStructure::Model::elastic)
-    plan.n_cells =
-        fem::layers({0.5 * a.far_field.chamber_diameter, a.far_field.chamber_height,
-                     0.5 * a.diameter, a.height, a.far_field.cell_size, a.far_field.growth})
-            .n_cells(a.far_field.extent);
+  plan.n_cells = layers.n_cells(a.far_field.extent);
   plan.n_steps = loading_time(c) / plan.step;
   plan.steps_by =
       c.has_stages()

@@ -151,7 +151,7 @@ void make(const JobOptions& options)
     dem::replace_file(folder.path() / "summary.json", found.object());
     require_results(folder.path(), "sample");
   });
-  std::cout << "specimen: " << path.string() << "\nuse it with --set "
+  std::cout << "specimen: " << printable(path.string()) << "\nuse it with --set "
             << in_shell("Specimen/file=" + path.string()) << "\n";
 }
 

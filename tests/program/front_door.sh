@@ -42,10 +42,13 @@ chmod +x pager
 export PAGER=$PWD/pager
 on_terminal "$mergel" help pile >paged
 [ "$(grep -c '^paged: ' paged)" = "$("$mergel" help pile | wc -l)" ] || fail "help is not paged on a terminal: $(head -3 paged)"
-on_terminal "$mergel" version | grep -q '^mergel' || fail "a short text is paged"
+on_terminal "$mergel" version >paged
+grep -q '^mergel' paged || fail "a short text is paged"
 ! "$mergel" help pile | grep -q '^paged: ' || fail "help is paged into a pipe"
-PAGER=no_such_program on_terminal "$mergel" help pile | grep -q '^usage: mergel pile' || fail "without a pager nothing is printed"
-PAGER= on_terminal "$mergel" help pile | grep -q '^usage: mergel pile' || fail "PAGER= prints nothing"
+PAGER=no_such_program on_terminal "$mergel" help pile >paged
+grep -q '^usage: mergel pile' paged || fail "without a pager nothing is printed"
+PAGER= on_terminal "$mergel" help pile >paged
+grep -q '^usage: mergel pile' paged || fail "PAGER= prints nothing"
 unset PAGER
 
 ## JSON and templates
