@@ -51,7 +51,8 @@ dem::RigidWall make_pile(const PileCase& c)
 
 Installation::Installation(const PileCase& c, coupling::CoupledSystem& coupled,
                            std::optional<PileOutput>& output)
-    : case_(c), coupled_(coupled), output_(output), stage_run_(c, coupled)
+    : case_(c), coupled_(coupled), output_(output), stage_run_(c, coupled),
+      rings_(c, dem::finest_d_50(coupled.assembly.particles))
 {
 }
 
@@ -164,8 +165,9 @@ std::string Installation::read_overlaps()
 
 void Installation::frame()
 {
+  const auto at_walls = dem::gather_wall_forces(coupled_.assembly);
   const auto assembly = dem::gather_on_first_rank(coupled_.assembly);
-  on_first_rank([&] { output_->frame(time_, *assembly, coupled_); });
+  on_first_rank([&] { output_->frame(time_, *assembly, at_walls, coupled_); });
 }
 
 std::string Installation::now() const
@@ -230,7 +232,10 @@ std::string Installation::record()
   last_ = r;
   q_peak_ = std::max(q_peak_, r.q_c);
   // A NaN cannot be written; the check below reports it.
-  if (std::isfinite(r.energy_error)) on_first_rank([&] { output_->record(r); });
+  const auto& pile = coupled_.assembly.rigid_walls.front();
+  const auto forces = dem::ring_forces(coupled_.assembly, pile, rings_.height, rings_.n);
+  if (std::isfinite(r.energy_error))
+    on_first_rank([&] { output_->record(r, rings_, forces); });
 
   worst_energy_error_ = std::max(worst_energy_error_, std::abs(r.energy_error));
   worst_interface_.force = std::max(worst_interface_.force, r.interface.force);

@@ -133,6 +133,7 @@ private:
   StageRun stage_run_;
   StagePosition position_;
   Push push_;
+  ShaftRings rings_;
   coupling::EnergyBalances start_;
   dem::EnergyAlarm energy_alarm_;
   BreakageCount breakage_;

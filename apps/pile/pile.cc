@@ -36,7 +36,8 @@ public:
             "Loading/largest settlement",
             "Pile/mass",
             "Output/record every",
-            "Output/frames"};
+            "Output/frames",
+            "Output/averaging length"};
   }
 
   void check_restart(const CaseFile& file, const Restart& restart) const override
@@ -153,7 +154,9 @@ void PileJob::save(dem::State& state) const
 
 void PileJob::summarise(Summary& summary, const Work& work) const
 {
-  if (is_penetrating_) apps::summarise(summary, case_, *installation_, *coupled_, work);
+  if (!is_penetrating_) return;
+  if (output_) output_->summarise(summary); // on the first rank, which writes it
+  apps::summarise(summary, case_, *installation_, *coupled_, work);
 }
 
 } // namespace

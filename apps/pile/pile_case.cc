@@ -152,6 +152,9 @@ void declare(CaseFile& file, PileCase& c)
                "Travel of the pile between two lines of history.csv.", "mm");
   file.integer("frames", c.frames, at_least(1.0),
                "Frames of all fields during the penetration, after the first.");
+  file.number("averaging length", c.averaging_length, from_to(1.0, 100.0),
+              "Height and width of the rings over which the continuum fields are averaged, "
+              "over d50 of the particles beside the pile.");
   declare(file, c.checkpoints);
 }
 

@@ -33,8 +33,9 @@ struct PileCase {
   double largest_settlement = unset; ///< under a head force [m]
 
   // Output
-  double record_every = unset; ///< travel between lines of history.csv [m]
-  int frames = 20;             ///< frames of the fields after the first
+  double record_every = unset;   ///< travel between lines of history.csv [m]
+  int frames = 20;               ///< frames of the fields after the first
+  double averaging_length = 2.0; ///< of the continuum fields, in d50 beside the pile [-]
   CheckpointKey checkpoints;
 
   double tip_height() const; ///< from the lowest point to the shaft [m]; 0 for a flat tip

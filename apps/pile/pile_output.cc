@@ -1,5 +1,6 @@
 #include "apps/pile/pile_output.h"
 
+#include "apps/pile/pile_continuum.h"
 #include "apps/run/restart.h"
 #include "dem/error.h"
 #include "dem/io/assembly_fields.h"
@@ -58,8 +59,13 @@ std::vector<std::string> columns_of(const PileCase& c)
   return all;
 }
 
-const std::vector<Frames::Kind> kinds{
-    {"particles", "vtp"}, {"bonds", "vtp"}, {"pile", "vtp"}, {"far_field", "vtu"}};
+const std::vector<Frames::Kind> kinds{{"particles", "vtp"}, {"bonds", "vtp"},
+                                      {"pile", "vtp"},      {"far_field", "vtu"},
+                                      {"fields", "vti"},    {"contacts", "vtp"}};
+
+constexpr const char* last_positions = "output_x_last";
+constexpr double height_over_surface = 0.5; // of the continuum fields, in diameters
+constexpr double layer = 0.5; // thickness of the coloured layers, in diameters
 
 dem::HistoryMark mark_in(const dem::State& state)
 {
@@ -70,17 +76,23 @@ dem::HistoryMark mark_in(const dem::State& state)
 } // namespace
 
 PileOutput::PileOutput(const std::filesystem::path& folder, const PileCase& c)
-    : diameter_(c.diameter), history_(folder / "history.csv", columns_of(c)),
-      frames_(folder, kinds)
+    : case_(c), history_(folder / "history.csv", columns_of(c)), frames_(folder, kinds),
+      profiles_(folder, c), shaft_(c)
 {
 }
 
 PileOutput::PileOutput(const std::filesystem::path& folder, const PileCase& c,
                        const std::filesystem::path& earlier, const dem::State& state)
-    : diameter_(c.diameter), history_(folder / "history.csv", columns_of(c),
-                                      earlier / "history.csv", mark_in(state)),
-      frames_(folder, kinds, earlier, state)
+    : case_(c), history_(folder / "history.csv", columns_of(c), earlier / "history.csv",
+                         mark_in(state)),
+      frames_(folder, kinds, earlier, state), profiles_(folder, c, earlier, state),
+      shaft_(c, state)
 {
+  if (state.has(last_positions)) { // older checkpoints do not have it
+    const auto& x = state.get<double>(last_positions, 3);
+    for (std::size_t k = 0; k < x.size(); k += 3)
+      x_last_.emplace_back(x[k], x[k + 1], x[k + 2]);
+  }
   if (!std::filesystem::equivalent(folder, earlier) &&
       std::filesystem::exists(earlier / "sample.h5"))
     copy_atomically(earlier / "sample.h5", folder / "sample.h5");
@@ -91,20 +103,28 @@ void PileOutput::save(dem::State& state, const PileOutput* output)
   const dem::HistoryMark mark = output ? output->history_.mark() : dem::HistoryMark{};
   state.add_common<std::uint64_t>("output_history", {mark.bytes, mark.sum});
   Frames::save(state, output ? &output->frames_ : nullptr);
+  PileProfiles::save(state, output ? &output->profiles_ : nullptr);
+  ShaftStress::save(state, output ? &output->shaft_ : nullptr);
+  std::vector<double> x;
+  if (output)
+    for (const dem::Vec3& at : output->x_last_) x.insert(x.end(), {at.x(), at.y(), at.z()});
+  state.add_common(last_positions, std::move(x), 3);
 }
 
 std::string PileOutput::check(const std::filesystem::path& folder, const dem::State& state)
 {
   return report_on_history(folder / "history.csv", mark_in(state)) +
-         Frames::check(folder, kinds, state);
+         PileProfiles::check(folder, state) + Frames::check(folder, kinds, state);
 }
 
-void PileOutput::record(const PileRecord& r)
+void PileOutput::record(const PileRecord& r, const ShaftRings& rings,
+                        const std::vector<dem::RingForce>& forces)
 {
+  shaft_.add(r.tip_depth, r.q_c, rings, forces);
   const dem::EnergyBalance& e = r.balance;
   history_.add({r.time,
                 r.depth,
-                r.depth / diameter_,
+                r.depth / case_.diameter,
                 r.tip_depth,
                 r.F_tip,
                 r.F_shaft,
@@ -136,20 +156,35 @@ void PileOutput::record(const PileRecord& r)
 }
 
 void PileOutput::frame(double time, const dem::Assembly& assembly,
+                       std::vector<dem::WallContactForce> at_walls,
                        const coupling::CoupledSystem& coupled)
 {
   require_in_place();
-  dem::write_particles(frames_.file(0), assembly, coupled.x_0);
+  const double D = case_.diameter, d_50 = dem::finest_d_50(assembly.particles),
+               w = case_.averaging_length * d_50;
+  const FrameInput input{assembly, std::move(at_walls), coupled.x_0,
+                         x_last_.empty() ? coupled.x_0 : x_last_};
+  const PileContinuum continuum({0.5 * case_.assembly.diameter, case_.assembly.height,
+                                 height_over_surface * D, w, layer * D},
+                                input);
+  dem::write_particles(frames_.file(0), assembly, coupled.x_0, continuum.particle_fields());
   dem::write_bonds(frames_.file(1), assembly);
   const dem::RigidWall& pile = assembly.rigid_walls.front();
   const auto write_pile =
       assembly.mirrors.empty() ? dem::write_revolution : dem::write_half_revolution;
   write_pile(frames_.file(2), std::get<dem::Revolution>(pile.shape), pile.x, pile.rotation,
-             2.0 * diameter_);
+             2.0 * D);
   dem::replace_file(frames_.file(3), [&](const std::filesystem::path& path) {
     far_field_of(coupled).write_vtu(path, dem::program_text());
   });
+  continuum.write_section(frames_.file(4));
+  continuum.write_contacts(frames_.file(5));
+  const double z_tip = pile.x.z();
+  profiles_.add({time, -z_tip - case_.tip_height(), z_tip, w, d_50}, continuum.sums(),
+                shaft_);
   frames_.add(time);
+  x_last_.clear();
+  for (const dem::ParticleState& b : assembly.particles.state) x_last_.push_back(b.x);
 }
 
 } // namespace mergel::apps

@@ -1,8 +1,9 @@
-/// Results of a pile run: history.csv and the frames for ParaView.
+/// Results of a pile run: history.csv, the profiles and the frames for ParaView.
 #pragma once
 
 #include "apps/coupled/system_of_case.h"
 #include "apps/pile/pile_case.h"
+#include "apps/pile/pile_profiles.h"
 #include "apps/run/frames.h"
 #include "dem/assembly/overlaps.h"
 #include "dem/io/history.h"
@@ -37,6 +38,7 @@ struct PileRecord {
 
 class PileOutput {
 public:
+  /// @param c must outlive the object
   PileOutput(const std::filesystem::path& folder, const PileCase& c);
   /// Continue the files that the folder `earlier`, which may be `folder`, held when save()
   /// wrote `state`.
@@ -51,18 +53,34 @@ public:
   /// @throws InputError when its history is another one
   static std::string check(const std::filesystem::path& folder, const dem::State& state);
 
-  void record(const PileRecord& r);
+  /// @param rings those of the shaft, and the forces on them now
+  void record(const PileRecord& r, const ShaftRings& rings,
+              const std::vector<dem::RingForce>& forces);
   /// @throws NumericalError when another program has touched the history
-  void require_in_place() const { history_.require_in_place(); }
-  /// Particles, bonds, pile and far field at this time [s].
+  void require_in_place() const
+  {
+    history_.require_in_place();
+    profiles_.require_in_place();
+  }
+  /// Particles, bonds, pile, far field, continuum fields and contacts at this time [s], and a
+  /// line of each profile.
   /// @param assembly gathered: all particles
+  /// @param at_walls dem::gather_wall_forces()
   void frame(double time, const dem::Assembly& assembly,
+             std::vector<dem::WallContactForce> at_walls,
              const coupling::CoupledSystem& coupled);
 
+  /// Add what the profiles show.
+  void summarise(Summary& summary) const { profiles_.summarise(summary); }
+
 private:
-  double diameter_;
+  const PileCase& case_;
   dem::History history_;
   Frames frames_;
+  PileProfiles profiles_;
+  ShaftStress shaft_;
+  std::vector<dem::Vec3>
+      x_last_; ///< positions at the last frame [m]; empty before the first
 };
 
 } // namespace mergel::apps

@@ -26,14 +26,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 28> own_files{
-    "history.csv",      "localisation.csv", "localisation.png", "resolved.prm",
-    "summary.json",     "sample.h5",        "damage.png",       "load.png",
-    "displacement.png", "particles.pvd",    "bonds.pvd",        "pile.pvd",
-    "platens.pvd",      "membrane.pvd",     "far_field.pvd",    "loads.png",
-    "surface.png",      "element.png",      "triaxial.png",     "specimen.png",
-    "isotropic.png",    "curve.png",        "breaks.pvd",       "plates.pvd",
-    "brazilian.png",    "disc.png",         "compare.png",      "failed.json"};
+constexpr std::array<std::string_view, 40> own_files{
+    "history.csv",        "localisation.csv", "localisation.png",  "resolved.prm",
+    "summary.json",       "sample.h5",        "damage.png",        "load.png",
+    "displacement.png",   "particles.pvd",    "bonds.pvd",         "pile.pvd",
+    "platens.pvd",        "membrane.pvd",     "far_field.pvd",     "loads.png",
+    "surface.png",        "element.png",      "triaxial.png",      "specimen.png",
+    "isotropic.png",      "curve.png",        "breaks.pvd",        "plates.pvd",
+    "brazilian.png",      "disc.png",         "compare.png",       "failed.json",
+    "fields.pvd",         "contacts.pvd",     "shaft_profile.csv", "tip_profile.csv",
+    "radial_profile.csv", "stress.png",       "porosity.png",      "layers.png",
+    "principal.png",      "chains.png",       "shaft.png",         "profiles.png"};
 constexpr std::string_view own_folder = "fields";
 constexpr std::string_view first_bytes_of_hdf5 = "\x89HDF\r\n\x1a\n";
 
@@ -110,8 +113,9 @@ bool is_real_folder(const fs::path& path)
 /// particles_0012.vtp and the like.
 bool is_own_field(const fs::path& name)
 {
-  static const std::regex frame("(particles|bonds|pile|platens|membrane|breaks|plates)_[0-"
-                                "9]{4,}\\.vtp|far_field_[0-9]{4,}\\.vtu");
+  static const std::regex frame("(particles|bonds|pile|platens|membrane|breaks|plates|"
+                                "contacts)_[0-9]{4,}\\.vtp|far_field_[0-9]{4,}\\.vtu|"
+                                "fields_[0-9]{4,}\\.vti");
   return std::regex_match(name.string(), frame);
 }
 

@@ -63,7 +63,8 @@ bool holds_only_a_specimen(const fs::path& folder)
 /// The series that a finished run of this job leaves.
 std::vector<std::string> series_of(const fs::path& folder, const std::string& job)
 {
-  if (job == "pile") return {"particles", "bonds", "pile", "far_field"};
+  if (job == "pile")
+    return {"particles", "bonds", "pile", "far_field", "fields", "contacts"};
   if (job == "sample") return {"particles", "bonds"};
   if (job != "element" && job != "triaxial" && job != "brazilian") return {};
   const CaseScan scan = case_of(folder);
@@ -127,8 +128,8 @@ std::vector<std::string> missing_results(const fs::path& folder, const std::stri
   owe("resolved.prm");
   owe(job == "sample" ? "sample.h5" : "history.csv");
   const std::vector<std::string> owed = series_of(folder, job);
-  for (const char* name : {"particles", "bonds", "pile", "far_field", "platens", "membrane",
-                           "breaks", "plates"}) {
+  for (const char* name : {"particles", "bonds", "pile", "far_field", "fields", "contacts",
+                           "platens", "membrane", "breaks", "plates"}) {
     const std::string pvd = std::string(name) + ".pvd";
     if (is_there(folder / pvd)) {
       const auto gone = missing_in(folder, pvd);

@@ -128,7 +128,8 @@ TEST_CASE("Series are owed by the jobs that write them, at the end", "[unit][app
   CHECK(missing_results(folder.path, "bond", Extent::finished).empty());
   CHECK(missing_results(folder.path, "pile", Extent::begun).empty());
   CHECK(missing_results(folder.path, "pile", Extent::finished) ==
-        Names{"particles.pvd", "bonds.pvd", "pile.pvd", "far_field.pvd"});
+        Names{"particles.pvd", "bonds.pvd", "pile.pvd", "far_field.pvd", "fields.pvd",
+              "contacts.pvd"});
   CHECK(missing_results(folder.path, "sample", Extent::finished) ==
         Names{"sample.h5", "particles.pvd", "bonds.pvd"});
   write(folder.path / "particles.pvd", "no series");

@@ -1,0 +1,49 @@
+/// The assembly around a pile as a continuum, at one frame.
+#pragma once
+
+#include "dem/assembly/local_strain.h"
+#include "dem/continuum/section_sums.h"
+#include "dem/io/vtk.h"
+
+#include <filesystem>
+
+namespace mergel::apps {
+
+/// What the continuum fields of one frame are made of.
+struct FrameInput {
+  const dem::Assembly& assembly;               ///< gathered: all particles
+  std::vector<dem::WallContactForce> at_walls; ///< dem::gather_wall_forces()
+  const std::vector<dem::Vec3>&x_0,
+      &x_last; ///< positions at the start, at the last frame [m]
+};
+
+/// Size of the half cylinder of particles, and of the averaging windows [m].
+struct ContinuumSpec {
+  double radius = 0.0, depth = 0.0, above = 0.0; ///< above: height of the grid over z = 0
+  double averaging_length = 0.0;                 ///< edge of a square window
+  double layer = 0.0;                            ///< thickness of the coloured layers
+};
+
+/// Windows of three by three cells of a section grid: their edge is the averaging length.
+class PileContinuum {
+public:
+  static constexpr int reach = 1; ///< of a window, in cells to each side
+
+  PileContinuum(const ContinuumSpec& spec, const FrameInput& frame);
+
+  const dem::SectionSums& sums() const { return sums_; }
+  /// Further fields of the particles (apps/pile/README.md, Results).
+  std::vector<dem::Field> particle_fields() const;
+  void write_section(const std::filesystem::path& file) const;
+  void write_contacts(const std::filesystem::path& file) const;
+
+private:
+  const FrameInput& frame_;
+  ContinuumSpec spec_;
+  std::vector<dem::LoadedBranch> branches_;
+  std::vector<dem::DeformationFit> fits_; ///< since the last frame
+  dem::ParticleValues values_;
+  dem::SectionSums sums_;
+};
+
+} // namespace mergel::apps

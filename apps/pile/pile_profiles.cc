@@ -1,0 +1,226 @@
+#include "apps/pile/pile_profiles.h"
+
+#include "apps/run/restart.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace mergel::apps {
+
+namespace {
+
+struct ProfileTable {
+  const char *file, *mark; ///< name in the folder, and of its mark in a checkpoint
+  std::vector<std::string> columns;
+};
+
+const ProfileTable shaft_table{"shaft_profile.csv",
+                               "output_shaft_profile",
+                               {"time [s]", "depth/D_p [-]", "h/R [-]",
+                                "height above the shoulder [m]", "radial stress [Pa]",
+                                "shear stress [Pa]", "radial stress by Chalk ICP-18 [Pa]",
+                                "q_c of the same travel [Pa]", "damage [-]", "porosity [-]",
+                                "void ratio [-]", "p [Pa]", "q [Pa]"}};
+const ProfileTable tip_table{"tip_profile.csv",
+                             "output_tip_profile",
+                             {"time [s]", "depth/D_p [-]", "distance below the tip/D_p [-]",
+                              "damage [-]", "porosity [-]", "void ratio [-]",
+                              "upward displacement [m]", "vertical stress [Pa]",
+                              "radial stress [Pa]", "p [Pa]", "q [Pa]"}};
+const ProfileTable radial_table{
+    "radial_profile.csv",
+    "output_radial_profile",
+    {"time [s]", "depth/D_p [-]", "beside the shaft 1 or below the tip 2 [-]", "r/R [-]",
+     "damage [-]", "porosity [-]", "void ratio [-]", "outward displacement [m]",
+     "upward displacement [m]", "radial stress [Pa]", "hoop stress [Pa]",
+     "vertical stress [Pa]", "p [Pa]", "q [Pa]"}};
+const std::array<const ProfileTable*, 3> tables{&shaft_table, &tip_table, &radial_table};
+
+/// The beginning of the table in a checkpoint that has none.
+dem::HistoryMark mark_in(const dem::State& state, const char* name)
+{
+  if (!state.has(name)) return {};
+  const auto& mark = state.get_rows<std::uint64_t>(name, 2);
+  return {mark[0], mark[1]};
+}
+
+dem::History continued(const ProfileTable& table, const std::filesystem::path& folder,
+                       const std::filesystem::path& earlier, const dem::State& state)
+{
+  if (!state.has(table.mark)) return {folder / table.file, table.columns};
+  return {folder / table.file, table.columns, earlier / table.file,
+          mark_in(state, table.mark)};
+}
+
+std::optional<dem::SectionAverage> rock_in(const dem::SectionSum& sum)
+{
+  if (!dem::SectionSums::is_filled(sum)) return {};
+  return dem::SectionSums::average(sum);
+}
+
+constexpr double farthest = 4.0; // from the axis and below the tip, in diameters
+constexpr double damage_of_crushed = 0.5;
+
+} // namespace
+
+PileProfiles::PileProfiles(const std::filesystem::path& folder, const PileCase& c)
+    : D_(c.diameter), R_(0.5 * c.diameter), tip_height_(c.tip_height()),
+      shaft_(folder / shaft_table.file, shaft_table.columns),
+      tip_(folder / tip_table.file, tip_table.columns),
+      radial_(folder / radial_table.file, radial_table.columns)
+{
+}
+
+PileProfiles::PileProfiles(const std::filesystem::path& folder, const PileCase& c,
+                           const std::filesystem::path& earlier, const dem::State& state)
+    : D_(c.diameter), R_(0.5 * c.diameter), tip_height_(c.tip_height()),
+      shaft_(continued(shaft_table, folder, earlier, state)),
+      tip_(continued(tip_table, folder, earlier, state)),
+      radial_(continued(radial_table, folder, earlier, state))
+{
+}
+
+void PileProfiles::save(dem::State& state, const PileProfiles* profiles)
+{
+  const auto add = [&](const ProfileTable& table, const dem::History* history) {
+    const dem::HistoryMark mark = history ? history->mark() : dem::HistoryMark{};
+    state.add_common<std::uint64_t>(table.mark, {mark.bytes, mark.sum});
+  };
+  add(shaft_table, profiles ? &profiles->shaft_ : nullptr);
+  add(tip_table, profiles ? &profiles->tip_ : nullptr);
+  add(radial_table, profiles ? &profiles->radial_ : nullptr);
+}
+
+std::string PileProfiles::check(const std::filesystem::path& folder,
+                                const dem::State& state)
+{
+  std::string report;
+  for (const ProfileTable* table : tables)
+    if (state.has(table->mark))
+      report += report_on_history(folder / table->file, mark_in(state, table->mark));
+  return report;
+}
+
+void PileProfiles::require_in_place() const
+{
+  for (const dem::History* table : {&shaft_, &tip_, &radial_}) table->require_in_place();
+}
+
+void PileProfiles::add(const ProfileFrame& frame, const dem::SectionSums& sums,
+                       const ShaftStress& shaft)
+{
+  found_ = {};
+  found_.averaging_length = frame.averaging_length;
+  found_.d_50 = frame.d_50;
+  add_shaft(frame, sums, shaft);
+  add_tip(frame, sums);
+  add_radial(frame, sums);
+}
+
+void PileProfiles::add_shaft(const ProfileFrame& frame, const dem::SectionSums& sums,
+                             const ShaftStress& shaft)
+{
+  const double z_shoulder = frame.z_tip + tip_height_, q_c = shaft.mean_q_c();
+  std::vector<double> h_over_R, radial;
+  for (const RingStress& ring : shaft.mean()) {
+    h_over_R.push_back(ring.h / R_);
+    radial.push_back(ring.radial);
+    const double z = z_shoulder + ring.h, half = 0.5 * shaft.height();
+    const auto rock =
+        rock_in(sums.between(R_, R_ + frame.averaging_length, z - half, z + half));
+    if (!rock) continue; // nothing beside the pile
+    shaft_.add({frame.time, frame.depth / D_, h_over_R.back(), ring.h, ring.radial,
+                ring.shear, dem::icp18_end_of_driving(q_c, h_over_R.back()), q_c,
+                rock->damage, rock->porosity, rock->void_ratio(), rock->p(), rock->q()});
+  }
+  found_.radial = dem::fit_power(h_over_R, radial);
+  found_.icp18_exponent = dem::icp18_exponent(q_c);
+  if (frame.depth >= R_)
+    found_.beside_shaft =
+        rock_in(sums.between(R_, R_ + frame.averaging_length, z_shoulder, -R_));
+}
+
+void PileProfiles::add_tip(const ProfileFrame& frame, const dem::SectionSums& sums)
+{
+  const double w = frame.averaging_length;
+  found_.below_tip = rock_in(sums.between(0.0, R_, frame.z_tip - D_, frame.z_tip));
+  for (double below = 0.0; below < farthest * D_; below += w) {
+    const auto rock =
+        rock_in(sums.between(0.0, R_, frame.z_tip - below - w, frame.z_tip - below));
+    if (!rock) continue; // below the floor
+    tip_.add({frame.time, frame.depth / D_, (below + 0.5 * w) / D_, rock->damage,
+              rock->porosity, rock->void_ratio(), rock->displacement.z(),
+              -rock->stress(2, 2), -rock->stress(0, 0), rock->p(), rock->q()});
+  }
+}
+
+void PileProfiles::add_radial(const ProfileFrame& frame, const dem::SectionSums& sums)
+{
+  const dem::SectionGrid& grid = sums.grid();
+  const double z_shoulder = frame.z_tip + tip_height_;
+  const auto add_band = [&](double place, double r_from, double z_from, double z_to) {
+    std::vector<std::pair<double, double>> damage; // over r
+    for (int column = grid.n_r; column < grid.n_columns(); ++column) {
+      const double r = grid.r_middle(column), half = 0.5 * grid.h;
+      if (r + half <= r_from || r > farthest * D_) continue;
+      const auto rock = rock_in(sums.between(r - half, r + half, z_from, z_to));
+      if (!rock) continue;
+      damage.emplace_back(r, rock->damage);
+      radial_.add({frame.time, frame.depth / D_, place, r / R_, rock->damage,
+                   rock->porosity, rock->void_ratio(), rock->displacement.x(),
+                   rock->displacement.z(), -rock->stress(0, 0), -rock->stress(1, 1),
+                   -rock->stress(2, 2), rock->p(), rock->q()});
+    }
+    return damage;
+  };
+  add_band(2.0, 0.0, frame.z_tip - D_, frame.z_tip);
+  if (frame.depth < 3.0 * R_) return;
+  const auto damage = add_band(1.0, R_, z_shoulder + R_, -R_);
+  if (damage.empty()) return;
+  found_.annulus = 0.0;
+  for (std::size_t k = 0; k < damage.size() && damage[k].second > damage_of_crushed; ++k) {
+    double r = damage[k].first;
+    if (k + 1 < damage.size() && damage[k + 1].second <= damage_of_crushed)
+      r += (damage[k + 1].first - r) * (damage[k].second - damage_of_crushed) /
+           (damage[k].second - damage[k + 1].second);
+    found_.annulus = std::max(0.0, r - R_);
+  }
+}
+
+void PileProfiles::summarise(Summary& summary) const
+{
+  const ProfileFindings& f = found_;
+  summary.number("averaging length [m]", f.averaging_length);
+  summary.number("d50 beside the pile [m]", f.d_50);
+  std::ostream& out = summary.closing;
+  out.precision(3);
+  if (f.radial.is_there()) {
+    summary.number("exponent of the radial stress over h/R [-]", f.radial.b);
+    summary.number("standard error of that exponent [-]", f.radial.standard_error);
+    summary.count("rings of that exponent [-]", f.radial.n);
+    summary.number("exponent by Chalk ICP-18 [-]", f.icp18_exponent);
+    out << "radial stress on the shaft falls with (h/R)^" << f.radial.b << " +- "
+        << f.radial.standard_error << " (" << f.radial.n << " rings)\n";
+  }
+  if (f.annulus) {
+    summary.number("annulus of damage above 0.5 [m]", *f.annulus);
+    summary.number("annulus of damage above 0.5 over D_p [-]", *f.annulus / D_);
+    summary.number("annulus of damage above 0.5 over d50 [-]", *f.annulus / f.d_50);
+    out << "beside the shaft the damage is above 0.5 over " << 1e3 * *f.annulus << " mm ("
+        << *f.annulus / D_ << " D_p, " << *f.annulus / f.d_50 << " d50)\n";
+  }
+  const auto add = [&](const char* where, const std::optional<dem::SectionAverage>& rock) {
+    if (!rock) return;
+    const std::string of = where;
+    summary.number("void ratio " + of + " [-]", rock->void_ratio());
+    summary.number("p " + of + " [Pa]", rock->p());
+    summary.number("q " + of + " [Pa]", rock->q());
+    out << of << ": e " << rock->void_ratio() << ", p " << 1e-6 * rock->p() << " MPa, q "
+        << 1e-6 * rock->q() << " MPa\n";
+  };
+  add("beside the shaft", f.beside_shaft);
+  add("below the tip", f.below_tip);
+}
+
+} // namespace mergel::apps
