@@ -2,6 +2,7 @@
 
 #include "dem/text.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mergel::apps {
@@ -14,6 +15,14 @@ double PileCase::tip_height() const
 std::string key_of_pile_stage(std::size_t k)
 {
   return "stage " + std::to_string(k + 1);
+}
+
+double PileCase::deepest() const
+{
+  double depth = 0.0;
+  for (const PileStage& s : stages)
+    if (s.kind == PileStage::Kind::penetrate) depth = std::max(depth, s.target);
+  return depth;
 }
 
 coupling::PileInertia PileCase::inertia() const

@@ -44,6 +44,8 @@ struct PileCase {
   double tip_at_end(const PileStage& stage) const { return stage.target + tip_height(); }
   /// The same of the first stage: of the final depth, without stages [m].
   double travel() const { return tip_at_end(stages.front()); }
+  /// Largest depth of the shoulder that a stage asks for [m].
+  double deepest() const;
   /// How much of the pile, and of its forces, is modelled [-].
   double modelled_share() const { return assembly.is_half() ? 0.5 : 1.0; }
   /// Of that part.

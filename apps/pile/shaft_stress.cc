@@ -15,7 +15,7 @@ constexpr double lowest_ring_of_d50 = 4.0;
 
 ShaftRings::ShaftRings(const PileCase& c, double d_50)
     : height(std::max(0.5 * c.diameter, lowest_ring_of_d50 * d_50)),
-      n(static_cast<std::size_t>(std::max(0.0, std::floor(c.final_depth / height))))
+      n(static_cast<std::size_t>(std::max(0.0, std::floor(c.deepest() / height))))
 {
 }
 

@@ -14,7 +14,7 @@ namespace mergel::apps {
 /// ring is less than one contact.
 struct ShaftRings {
   double height = 0.0; ///< [m]
-  std::size_t n = 0;   ///< that the shaft has at its final depth
+  std::size_t n = 0;   ///< that the shaft has where it is deepest
 
   ShaftRings() = default;
   /// @param d_50 of the particles beside the pile [m]

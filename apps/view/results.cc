@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkErrorCode.h>
 #include <vtkLogger.h>
@@ -18,6 +19,7 @@
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
@@ -84,7 +86,7 @@ vtkDataArray* require_array(vtkDataSet* data, const char* name, int components,
 /// A file without points.
 enum class Empty { refused, allowed };
 
-/// The data set of a .vtp or .vtu in mm.
+/// The data set of a .vtp, .vtu or .vti in mm.
 template <class Reader>
 auto read(const fs::path& file, Empty empty = Empty::refused)
 {
@@ -101,7 +103,13 @@ auto read(const fs::path& file, Empty empty = Empty::refused)
   require(empty == Empty::allowed || output->GetNumberOfPoints() > 0,
           file.string() + ": holds no points.");
   vtkSmartPointer<std::remove_pointer_t<decltype(output)>> data = output;
-  if (data->GetNumberOfPoints() > 0) scale(data->GetPoints()->GetData());
+  if constexpr (std::is_same_v<std::remove_pointer_t<decltype(output)>, vtkImageData>) {
+    const double *x = data->GetOrigin(), *h = data->GetSpacing();
+    data->SetOrigin(mm_per_m * x[0], mm_per_m * x[1], mm_per_m * x[2]);
+    data->SetSpacing(mm_per_m * h[0], mm_per_m * h[1], mm_per_m * h[2]);
+  } else if (data->GetNumberOfPoints() > 0) {
+    scale(data->GetPoints()->GetData());
+  }
   return data;
 }
 
@@ -160,6 +168,19 @@ ResultFrame read_frame(const fs::path& folder, int number)
   const fs::path far_field = file_at(frame.time, folder / "far_field.pvd");
   frame.far_field = read<vtkXMLUnstructuredGridReader>(far_field);
   scale(require_array(frame.far_field, "displacement", 3, far_field));
+  return frame;
+}
+
+ContinuumFrame read_continuum(const fs::path& folder, double time)
+{
+  ContinuumFrame frame;
+  if (!fs::exists(folder / "fields.pvd")) return frame;
+  frame.section = read<vtkXMLImageDataReader>(file_at(time, folder / "fields.pvd"));
+  const fs::path contacts = file_at(time, folder / "contacts.pvd");
+  frame.contacts = read<vtkXMLPolyDataReader>(contacts);
+  require(frame.contacts->GetCellData()->GetArray("normal force [N]") != nullptr,
+          contacts.string() +
+              ": no cell array 'normal force [N]'. Was it written by mergel?");
   return frame;
 }
 

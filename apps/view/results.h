@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include <vtkImageData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
@@ -26,6 +27,17 @@ struct ResultFrame {
 /// @throws InputError naming the file: missing, damaged, without an array, without that
 /// frame
 ResultFrame read_frame(const std::filesystem::path& folder, int number);
+
+/// The continuum fields of a pile run at one frame, in mm too; `section` is null where the run
+/// wrote none.
+struct ContinuumFrame {
+  vtkSmartPointer<vtkImageData> section; ///< lengths of the arrays are in m, as in the file
+  vtkSmartPointer<vtkPolyData> contacts; ///< cell array "normal force [N]"
+};
+
+/// @param time of a frame [s]
+/// @throws InputError as above
+ContinuumFrame read_continuum(const std::filesystem::path& folder, double time);
 
 /// One frame of a triaxial test, in mm too.
 struct SpecimenFrame {

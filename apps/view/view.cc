@@ -1,4 +1,6 @@
-/// mergel-view: pictures of runs. Of a pile run: damage.png, displacement.png and load.png;
+/// mergel-view: pictures of runs. Of a pile run: load.png, damage.png, displacement.png, those of
+/// its continuum fields (stress.png, porosity.png, layers.png, principal.png, chains.png) and of
+/// its profiles (shaft.png, profiles.png);
 /// of bond runs: loads.png and surface.png; of element runs: element.png or isotropic.png;
 /// of triaxial runs: triaxial.png or isotropic.png, and of one specimen.png and
 /// localisation.png; of Brazilian runs: brazilian.png, and of one disc.png; of several element
@@ -13,6 +15,7 @@
 #include "apps/view/laboratory/draw_laboratory.h"
 #include "apps/view/laboratory/draw_tests.h"
 #include "apps/view/options.h"
+#include "apps/view/pile/chart.h"
 #include "apps/view/pile/draw_pile.h"
 #include "dem/error.h"
 #include "dem/io/table.h"
@@ -60,6 +63,7 @@ dem::Table history_of(const fs::path& folder)
     std::cerr
         << "mergel-view: " << history.file.string()
         << ": the last line is not complete (is the run still active?) and is left out.\n";
+  add_head_force(history);
   return history;
 }
 
@@ -131,6 +135,8 @@ void draw(const Options& options)
                 ": chooses its panels by the headings of the file; leave out --curve and "
                 "--points.");
     draw_compare(options, histories);
+    if (job == Job::pile && histories.size() == 1)
+      draw_pile_load(options, histories.front());
     return;
   }
   if (!options.curves.empty()) {

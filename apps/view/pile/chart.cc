@@ -2,61 +2,137 @@
 
 #include "apps/view/curve.h"
 
-#include <vector>
+#include <algorithm>
 
 namespace mergel::apps {
 
 namespace {
 
 constexpr double averaging_window = 0.1; // pile diameters of travel
-constexpr double Pa_per_MPa = 1e6;
 const Colour pale_blue{0.66, 0.78, 0.89};
 const Colour blue{0.05, 0.28, 0.55};
 const Colour red{0.62, 0.10, 0.12};
+const Stroke thin{ink, 2.5, {}};
+constexpr std::size_t most_marks = 25; // of one measured curve
+
+/// A measured curve in the units of a panel, over depth in pile diameters.
+struct MeasuredLoad {
+  std::string quantity, unit; ///< "q_c", "MPa"
+  std::vector<double> x, depth;
+  std::size_t file; ///< its number
+};
+
+std::vector<MeasuredLoad> loads_of(const std::vector<Measured>& measured,
+                                   const dem::Table& history)
+{
+  if (measured.empty()) return {};
+  const std::vector<Run> runs{{{0, ""}, history}};
+  const double depth = history.column("depth", "m").back(),
+               tip_depth = history.column("tip depth", "m").back(),
+               D = depth / history.column("depth/D_p", "-").back();
+  std::vector<MeasuredLoad> loads;
+  for (std::size_t k = 0; k < measured.size(); ++k)
+    for (const RunPlot& panel : panels_of({measured[k]}, runs)) {
+      const bool is_load = panel.x.name == "q_c" || panel.x.name == "head force";
+      const std::string& of = panel.y.name;
+      if (!is_load || (of != "depth" && of != "depth/D_p" && of != "tip depth")) continue;
+      const PlotCurve curve = curve_in(panel, measured[k], runs);
+      MeasuredLoad load{panel.x.name, panel.x.unit, curve.x, curve.y, k};
+      if (of != "depth/D_p")
+        for (double& y : load.depth)
+          y = (y * unit_size(panel.y.unit, panel.y.base) -
+               (of == "tip depth" ? tip_depth - depth : 0.0)) /
+              D;
+      loads.push_back(std::move(load));
+    }
+  return loads;
+}
+
+/// One quantity of the run over depth, as recorded and as a moving mean, and what was measured.
+void draw_quantity(Page& page, Panel panel, const dem::Table& history,
+                   PlotQuantity quantity, const std::vector<MeasuredLoad>& measured)
+{
+  settle(quantity, {&history});
+  const auto values = values_of(history, quantity);
+  const auto& depth = history.column("depth/D_p", "-");
+  Range reach = range(values);
+  for (const MeasuredLoad& m : measured)
+    if (m.quantity == quantity.name) reach = range(reach, range(m.x));
+  panel.x = round_axis(reach, quantity.title());
+  draw_axes(page, panel);
+  draw_curve(page, panel, values, depth, {pale_blue, 2.0, {}});
+  draw_curve(page, panel, dem::moving_mean(depth, values, averaging_window), depth,
+             {blue, 5.0, {}});
+  for (const MeasuredLoad& m : measured) {
+    if (m.quantity != quantity.name) continue;
+    std::vector<double> x, y; // what lies deeper than the run is left out
+    for (std::size_t k = 0; k < m.x.size(); ++k)
+      if (m.depth[k] <= panel.y.from && m.depth[k] >= panel.y.to) {
+        x.push_back(m.x[k]);
+        y.push_back(m.depth[k]);
+      }
+    draw_curve(page, panel, x, y, thin);
+    const std::size_t step = 1 + x.size() / most_marks;
+    for (std::size_t k = 0; k < x.size(); k += step)
+      draw_mark(page, panel.at(x[k], y[k]), distinct_mark(m.file), ink);
+  }
+}
+
+PlotQuantity named(const char* name, const char* words)
+{
+  PlotQuantity quantity = quantity_of(name);
+  quantity.words = words;
+  return quantity;
+}
 
 } // namespace
 
-void draw_load(Page& page, const dem::Table& history)
+void add_head_force(dem::Table& history)
 {
-  const std::vector<double>& depth = history.column("depth/D_p", "-");
-  std::vector<double> q_c = history.column("q_c", "Pa");
-  const std::vector<double>& broken = history.column("bonds broken", "-");
-  for (double& q : q_c) q /= Pa_per_MPa;
-  const std::vector<double> mean = dem::moving_mean(depth, q_c, averaging_window);
+  const char *tip = "tip force of the full pile", *shaft = "shaft force of the full pile";
+  if (history.has("head force") || !history.has(tip) || !history.has(shaft)) return;
+  dem::TableColumn head{"head force", "N", history.column(tip, "N")};
+  const auto& more = history.column(shaft, "N");
+  for (std::size_t k = 0; k < head.values.size(); ++k) head.values[k] += more[k];
+  history.columns.push_back(std::move(head));
+}
+
+void draw_load(Page& page, const dem::Table& history, const std::vector<Measured>& measured)
+{
+  const auto loads = loads_of(measured, history);
+  std::vector<KeyEntry> key{{"as recorded", {pale_blue, 2.0, {}}},
+                            {"mean over 0.1 diameters", {blue, 5.0, {}}}};
+  for (std::size_t k = 0; k < measured.size(); ++k)
+    if (std::any_of(loads.begin(), loads.end(), [&](const auto& m) { return m.file == k; }))
+      key.push_back({measured[k].label, thin, distinct_mark(k)});
 
   const double u = page.unit();
-  const double left = 140.0 * u, right = page.width() - 75.0 * u, gap = 60.0 * u;
-  const double bottom = 60.0 * u, top = page.height() - 140.0 * u;
-  const double middle = left + 0.6 * (right - left);
-
+  const double left = 140.0 * u, right = page.width() - 75.0 * u, gap = 70.0 * u;
+  const double strip = key_height(page, key, right - left);
+  const double bottom = 40.0 * u, top = page.height() - strip - 150.0 * u;
+  const double width = (right - left - 2.0 * gap) / 3.0;
+  const std::vector<double>& depth = history.column("depth/D_p", "-");
   const Range depths = range(depth);
-  Panel load;
-  load.box = {left, bottom, middle - 0.5 * gap, top};
-  load.x = round_axis(range(q_c), "cone resistance (MPa)");
-  load.y = {depths.high > depths.low ? depths.high : depths.low + 1.0, depths.low,
-            "depth / pile diameter"};
-  load.is_x_on_top = true;
-  load.has_grid = true;
-  draw_axes(page, load);
-  draw_curve(page, load, q_c, depth, {pale_blue, 2.0, {}});
-  draw_curve(page, load, mean, depth, {blue, 5.0, {}});
+  const auto panel = [&](double place) {
+    Panel p;
+    const double x = left + place * (width + gap);
+    p.box = {x, bottom, x + width, top};
+    p.y = {depths.high > depths.low ? depths.high : depths.low + 1.0, depths.low,
+           place == 0.0 ? "depth / pile diameter" : ""};
+    p.is_x_on_top = true;
+    p.has_grid = true;
+    p.has_y_numbers = place == 0.0;
+    return p;
+  };
+  draw_quantity(page, panel(0.0), history, named("q_c", "cone resistance"), loads);
+  draw_quantity(page, panel(1.0), history, named("head force", "head force"), loads);
 
-  const Pixel key{load.box.left + 40.0 * u, load.box.bottom + 95.0 * u};
-  page.fill({key.x - 20.0 * u, key.y - 70.0 * u, key.x + 400.0 * u, key.y + 30.0 * u},
-            {1.0, 1.0, 1.0});
-  page.line({key, {key.x + 60.0 * u, key.y}}, pale_blue, 2.0);
-  page.text({key.x + 80.0 * u, key.y}, "as recorded", {0.9, Across::left});
-  page.line({{key.x, key.y - 40.0 * u}, {key.x + 60.0 * u, key.y - 40.0 * u}}, blue, 5.0);
-  page.text({key.x + 80.0 * u, key.y - 40.0 * u}, "mean over 0.1 diameters",
-            {0.9, Across::left});
-
-  Panel bonds = load;
-  bonds.box = {middle + 0.5 * gap, bottom, right, top};
+  const std::vector<double>& broken = history.column("bonds broken", "-");
+  Panel bonds = panel(2.0);
   bonds.x = round_axis(range(broken), "broken bonds");
-  bonds.y.title = "";
-  bonds.has_y_numbers = false;
   draw_axes(page, bonds);
   draw_curve(page, bonds, broken, depth, {red, 5.0, {}});
+  draw_key(page, {left, top, right, page.height() - 15.0 * u}, key);
 }
 
 } // namespace mergel::apps

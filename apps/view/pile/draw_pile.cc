@@ -3,7 +3,10 @@
 #include "apps/view/output.h"
 #include "apps/view/pile/chart.h"
 #include "apps/view/pile/displacement.h"
+#include "apps/view/pile/draw_fields.h"
+#include "apps/view/pile/draw_profiles.h"
 #include "apps/view/pile/scene.h"
+#include "apps/view/pile/section_image.h"
 #include "apps/view/results.h"
 #include "dem/error.h"
 
@@ -49,6 +52,16 @@ AssemblyPicture displacement_picture(double largest)
 
 } // namespace
 
+void draw_pile_load(const Options& options, const dem::Table& history)
+{
+  std::vector<Measured> measured;
+  for (const std::string& file : options.compare) measured.push_back(read_measured(file));
+  const fs::path output = picture_folder(options);
+  Page chart(options.size.width, options.size.height);
+  draw_load(chart, history, measured);
+  save(options, chart, output / "load.png");
+}
+
 void draw_pile(const Options& options, const dem::Table& history)
 {
   const fs::path folder = options.folders.front();
@@ -66,13 +79,25 @@ void draw_pile(const Options& options, const dem::Table& history)
     save(options, page, output / name);
   };
 
-  Page chart(options.size.width, options.size.height);
-  draw_load(chart, history);
-  save(options, chart, output / "load.png");
+  draw_pile_load(options, history);
 
   draw_picture(damage_picture(), "damage.png");
 
-  const double largest = add_displacement(read_frame(folder, 0), frame);
+  const ResultFrame start = read_frame(folder, 0);
+  const ContinuumFrame continuum = read_continuum(folder, frame.time);
+  if (continuum.section) {
+    const SectionValues porosity(read_continuum(folder, start.time).section, "porosity [-]",
+                                 1, component(0));
+    const double most = 2.0 * porosity.h() * (porosity.n_x() + porosity.n_z());
+    draw_fields(options, output, frame, continuum,
+                porosity.quantile(0.5, {0.0, 0.0, most, most}),
+                caption(history, frame.time));
+    draw_profiles(options, output, frame.time, caption(history, frame.time));
+  } else {
+    std::cout << "no pictures of fields: the run has no fields.pvd\n";
+  }
+
+  const double largest = add_displacement(start, frame);
   if (largest > 0.0)
     draw_picture(displacement_picture(largest), "displacement.png");
   else

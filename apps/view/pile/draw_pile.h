@@ -6,7 +6,11 @@
 
 namespace mergel::apps {
 
-/// damage.png, displacement.png and load.png.
+/// load.png, damage.png and displacement.png, and those of fields and profiles where the run
+/// wrote some.
 void draw_pile(const Options& options, const dem::Table& history);
+
+/// load.png alone, with the measured curves of --compare over it.
+void draw_pile_load(const Options& options, const dem::Table& history);
 
 } // namespace mergel::apps

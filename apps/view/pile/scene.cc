@@ -23,43 +23,6 @@ namespace {
 const Colour far_assembly{0.955, 0.95, 0.935};
 const Colour mesh_edge{0.80, 0.79, 0.77};
 
-/// The full pile: a half one gets its mirror image.
-vtkSmartPointer<vtkActor> pile(vtkPolyData* surface)
-{
-  vtkNew<vtkAppendPolyData> whole;
-  whole->AddInputData(surface);
-  const Bounds b = bounds(surface);
-  if (b[2] > -0.1 * b[3]) {
-    vtkNew<vtkTransform> mirror;
-    mirror->Scale(1.0, -1.0, 1.0);
-    vtkNew<vtkTransformPolyDataFilter> image;
-    image->SetInputData(surface);
-    image->SetTransform(mirror);
-    image->Update();
-    whole->AddInputData(image->GetOutput());
-  }
-  vtkNew<vtkCleanPolyData> joined; // one set of normals across the seam
-  joined->SetInputConnection(whole->GetOutputPort());
-  joined->SetTolerance(1e-6);
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputConnection(joined->GetOutputPort());
-  normals->SetFeatureAngle(20.0); // the shoulder of a 60 degree cone has 30
-  normals->ConsistencyOn();
-  normals->AutoOrientNormalsOff();
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(normals->GetOutputPort());
-  mapper->ScalarVisibilityOff();
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  vtkProperty* look = actor->GetProperty();
-  look->SetColor(steel[0], steel[1], steel[2]);
-  look->SetAmbient(0.25);
-  look->SetDiffuse(0.75);
-  look->SetSpecular(0.35);
-  look->SetSpecularPower(25.0);
-  return actor;
-}
-
 /// The section of the far field just behind y = 0, and the mesh in it.
 struct Section {
   vtkSmartPointer<vtkActor> face, edges;
@@ -174,6 +137,42 @@ Layout layout(const Page& page, const ResultFrame& frame)
 
 } // namespace
 
+vtkSmartPointer<vtkActor> pile_actor(vtkPolyData* surface)
+{
+  vtkNew<vtkAppendPolyData> whole;
+  whole->AddInputData(surface);
+  const Bounds b = bounds(surface);
+  if (b[2] > -0.1 * b[3]) {
+    vtkNew<vtkTransform> mirror;
+    mirror->Scale(1.0, -1.0, 1.0);
+    vtkNew<vtkTransformPolyDataFilter> image;
+    image->SetInputData(surface);
+    image->SetTransform(mirror);
+    image->Update();
+    whole->AddInputData(image->GetOutput());
+  }
+  vtkNew<vtkCleanPolyData> joined; // one set of normals across the seam
+  joined->SetInputConnection(whole->GetOutputPort());
+  joined->SetTolerance(1e-6);
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputConnection(joined->GetOutputPort());
+  normals->SetFeatureAngle(20.0); // the shoulder of a 60 degree cone has 30
+  normals->ConsistencyOn();
+  normals->AutoOrientNormalsOff();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(normals->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  vtkProperty* look = actor->GetProperty();
+  look->SetColor(steel[0], steel[1], steel[2]);
+  look->SetAmbient(0.25);
+  look->SetDiffuse(0.75);
+  look->SetSpecular(0.35);
+  look->SetSpecularPower(25.0);
+  return actor;
+}
+
 void draw_assembly(Page& page, const ResultFrame& frame, const AssemblyPicture& picture)
 {
   const auto table = lookup_table(picture);
@@ -186,7 +185,7 @@ void draw_assembly(Page& page, const ResultFrame& frame, const AssemblyPicture& 
     scene->AddActor(far_field.face);
     scene->AddActor(far_field.edges);
     scene->AddActor(spheres(particles, table));
-    scene->AddActor(pile(frame.pile));
+    scene->AddActor(pile_actor(frame.pile));
     look_along_y(scene, window);
 
     Panel panel;

@@ -11,4 +11,7 @@ namespace mergel::apps {
 /// the tip beside it if the DEM region is slender enough to leave room.
 void draw_assembly(Page& page, const ResultFrame& frame, const AssemblyPicture& picture);
 
+/// The full pile: a half one gets its mirror image.
+vtkSmartPointer<vtkActor> pile_actor(vtkPolyData* surface);
+
 } // namespace mergel::apps
