@@ -65,11 +65,11 @@ void draw_stress(Page& page, const ResultFrame& frame, vtkImageData* fields,
                  const std::string& caption)
 {
   const std::string stress = "stress [Pa]";
+  const auto pulled_by = [](const double* s) { return -MPa * std::min(s[0], 0.0); };
   const SectionValues vertical(fields, stress, 6, component(zz, -MPa)),
       radial(fields, stress, 6, component(xx, -MPa)),
       q(fields, "q [Pa]", 1, component(0, MPa)),
-      tension(fields, "minor principal stress [Pa]", 1,
-              [](const double*minor) { return minor[0] > 0.0 ? 0.0 : -MPa * minor[0]; });
+      tension(fields, "minor principal stress [Pa]", 1, pulled_by);
   const Window window = window_around(frame.pile, vertical);
   const auto compression = [&](const SectionValues& values, const char* name) {
     const double high = round_above(values.quantile(shown_share, window));
