@@ -31,22 +31,26 @@ FarFieldGeometry geometry(const FarFieldSpec& s)
 
 SolidProperties properties(const FarFieldSpec& s)
 {
-  const double gamma = s.rho * s.gravity, K0 = s.K0;
-  const auto geostatic = [gamma, K0](const dealii::Point<3>& x) {
+  const double gamma = s.rho * s.gravity, K0 = s.K0, q = s.surcharge;
+  const auto geostatic = [gamma, K0, q](const dealii::Point<3>& x) {
     dealii::SymmetricTensor<2, 3> sigma;
-    sigma[2][2] = gamma * x[2];
+    sigma[2][2] = gamma * x[2] - q;
     sigma[0][0] = sigma[1][1] = K0 * sigma[2][2];
     return sigma;
   };
-  return {{s.E, s.nu}, s.rho, Vec3(0.0, 0.0, -s.gravity), geostatic};
+  return {{s.E, s.nu},
+          s.rho,
+          Vec3(0.0, 0.0, -s.gravity),
+          geostatic,
+          {{boundary::top, s.surcharge}, {boundary::outer, s.side_pressure}}};
 }
 
 Supports supports(const FarFieldSpec& s)
 {
-  Supports all{{boundary::bottom, Support::fixed},
-               {boundary::outer,
-                s.outer == FarFieldSpec::Outer::fixed ? Support::fixed : Support::roller}};
+  Supports all{{boundary::bottom, Support::fixed}};
   if (s.extent == Extent::half) all[boundary::symmetry] = Support::roller;
+  if (s.outer == FarFieldSpec::Outer::fixed) all[boundary::outer] = Support::fixed;
+  if (s.outer == FarFieldSpec::Outer::roller) all[boundary::outer] = Support::roller;
   return all;
 }
 
@@ -155,6 +159,13 @@ void FarFieldSpec::check() const
           "must be >= 0, in m/s^2; it points downwards");
   require(damping >= 0.0 && damping < 1.0, "damping", damping,
           "must satisfy 0 <= damping < 1");
+  require(surcharge >= 0.0 && std::isfinite(surcharge), "surcharge", surcharge,
+          "must be >= 0, in Pa; it presses on the ground surface");
+  require(side_pressure >= 0.0 && std::isfinite(side_pressure), "side pressure",
+          side_pressure, "must be >= 0, in Pa; it presses on the wall of the chamber");
+  require(side_pressure == 0.0 || outer == Outer::pressure, "side pressure", side_pressure,
+          "must be 0 where the wall of the chamber is held; choose the outer boundary "
+          "under pressure");
   constexpr double max_cells = 2e6;
   const double n = layers(geometry(*this)).n_cells(extent);
   require(n <= max_cells, "number of cells for this cell size", n,

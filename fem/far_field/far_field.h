@@ -42,9 +42,12 @@ struct FarFieldSpec {
   double damping = 0.7;  ///< local non-viscous damping [-], 0 <= damping < 1
 
   enum class Outer {
-    roller, ///< no radial displacement at r = R_c
-    fixed,  ///< no displacement at r = R_c
+    roller,   ///< no radial displacement at r = R_c
+    fixed,    ///< no displacement at r = R_c
+    pressure, ///< r = R_c under the side pressure
   } outer = Outer::roller;
+  double side_pressure = 0.0; ///< [Pa], >= 0; 0 but for Outer::pressure
+  double surcharge = 0.0;     ///< pressure on the ground surface [Pa], >= 0
 
   /// Throws std::invalid_argument naming the value, what is allowed and a remedy.
   void check() const;

@@ -19,8 +19,10 @@ struct DiscreteSolid {
   std::vector<Mat3> P;  ///< support of each node [-]
   Eigen::ArrayXd m;     ///< lumped mass of each node [kg], > 0
   NodalField f_gravity; ///< P times the weight [N]
-  NodalField f_initial; ///< P times int B^T sigma_0, nodal forces of the initial stress [N]
-  BlockMatrix K;        ///< stiffness with supports [N/m]
+  /// P times (int B^T sigma_0 dx + int p n N dA): nodal forces of the initial stress, less
+  /// those of the pressures on the surface [N].
+  NodalField f_initial;
+  BlockMatrix K;                      ///< stiffness with supports [N/m]
   std::vector<std::uint32_t> oblique; ///< nodes whose P mixes the axes (not diagonal)
 
   std::size_t n_nodes() const { return x.size(); }

@@ -49,6 +49,7 @@ ElasticSolid::ElasticSolid(const dealii::Triangulation<3>& mesh, SolidProperties
   set_supports(supports);
   set_pattern();
   assemble();
+  add_pressures();
 }
 
 void ElasticSolid::set_supports(const Supports& supports)
@@ -176,6 +177,31 @@ void ElasticSolid::assemble()
   // frequency
   for (std::uint32_t a = 0; a < n; ++a)
     s.K.add(a, a, (K_aa[a].trace() / 3.0) * (Mat3::Identity() - s.P[a]));
+}
+
+/// f_initial += int p n N dA: what a pressure leaves of the forces of the initial stress.
+void ElasticSolid::add_pressures()
+{
+  dealii::FEFaceValues<3> face_values(
+      fe_, face_quadrature,
+      dealii::update_values | dealii::update_normal_vectors | dealii::update_JxW_values);
+  for (const auto& [id, p] : properties_.pressure) {
+    if (p == 0.0) continue;
+    for (const auto& cell : dofs_.active_cell_iterators())
+      for (const unsigned int f : cell->face_indices()) {
+        if (!cell->face(f)->at_boundary() || cell->face(f)->boundary_id() != id) continue;
+        face_values.reinit(cell, f);
+        for (unsigned int v = 0; v < n_vertices; ++v) {
+          Vec3 area = Vec3::Zero(); // int n N dA
+          for (const unsigned int q : face_values.quadrature_point_indices())
+            for (int c = 0; c < 3; ++c)
+              area[c] += face_values.normal_vector(q)[c] *
+                         face_values.shape_value(3 * v, q) * face_values.JxW(q);
+          const auto a = node(cell, v);
+          discrete_.f_initial.col(a).head<3>() += (discrete_.P[a] * (p * area)).array();
+        }
+      }
+  }
 }
 
 std::vector<std::uint32_t> ElasticSolid::nodes_on(dealii::types::boundary_id id) const

@@ -31,6 +31,9 @@ struct SolidProperties {
   Vec3 gravity = Vec3::Zero(); ///< [m/s^2]
   /// Stress before any displacement [Pa], tension positive; empty for none.
   std::function<dealii::SymmetricTensor<2, 3>(const dealii::Point<3>&)> initial_stress;
+  /// Pressure on the faces of a boundary id in their reference position [Pa], >= 0: a dead
+  /// load against their normals.
+  std::map<dealii::types::boundary_id, double> pressure;
 };
 
 /// Trilinear hexahedra (Q1), small strain, mass lumped by row sums. Nodes are numbered in
@@ -63,6 +66,7 @@ private:
   void set_supports(const Supports& supports);
   void set_pattern();
   void assemble();
+  void add_pressures();
 
   SolidProperties properties_;
   dealii::FESystem<3> fe_;

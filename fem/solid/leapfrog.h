@@ -23,8 +23,9 @@ struct Energies {
   double strain = 0.0;
   double interface_work = 0.0; ///< done on the solid by the interface forces, cumulative
   double gravity_work = 0.0;   ///< done by gravity, cumulative
-  double initial_stress_work = 0.0; ///< done by -f_initial, cumulative
-  double damping = 0.0;             ///< lost by damping, cumulative
+  /// done by -f_initial, cumulative: by the initial stress and the pressures on the surface
+  double initial_stress_work = 0.0;
+  double damping = 0.0; ///< lost by damping, cumulative
 };
 
 /// State that a restart needs to continue with the same bits.

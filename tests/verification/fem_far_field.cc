@@ -56,6 +56,64 @@ TEST_CASE("The far field's initial stress is in equilibrium with the region's tr
   CHECK(field.mass() == Approx(1227.0 * volume).epsilon(1e-10));
 }
 
+TEST_CASE("A surcharge adds a uniform stress to the initial one, and nothing moves",
+          "[verification][fem]")
+{
+  FarFieldSpec spec = small_chamber();
+  spec.surcharge = 2e6;
+  FarField field(spec);
+  const auto f = field.initial_interface_forces();
+  // The region's weight and the surcharge on it rest on its floor.
+  const double n_around = 8.0;
+  const double weight =
+      (1227.0 * 9.81 * 12e-3 + spec.surcharge) * half_polygon(5e-3, n_around);
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& force : f) sum += force;
+  CHECK(sum.z() == Approx(-weight).epsilon(1e-10));
+  CHECK(std::abs(sum.x()) < 1e-12 * weight);
+
+  field.solve_static(f);
+  CHECK(field.unbalanced_ratio() < 1e-11); // of forces that cancel to the weight
+  const double scale = spec.surcharge / spec.E * 40e-3;
+  CHECK(field.motion().u.abs().maxCoeff() < 1e-10 * scale);
+}
+
+TEST_CASE("A chamber under side pressure has Lame's displacement, and its work is balanced",
+          "[verification][fem]")
+{
+  // Timoshenko and Goodier, Theory of Elasticity, art. 28: a ring under the outer pressure p,
+  // in plane stress far from the fixed base,
+  //   u = -p b^2/(E (b^2 - a^2)) ((1 - nu) r + (1 + nu) a^2/r)
+  FarFieldSpec spec = small_chamber();
+  spec.cell_size = 1e-3;
+  spec.growth = 1.2;
+  spec.region_height = 30e-3; // six radii of the region
+  spec.chamber_height = 60e-3;
+  spec.gravity = spec.K0 = 0.0;
+  spec.outer = FarFieldSpec::Outer::pressure;
+  spec.side_pressure = 1e6;
+  FarField field(spec);
+  const InterfaceMesh& mesh = field.interface();
+  field.solve_static(std::vector<Vec3>(mesh.x.size(), Vec3::Zero()));
+  std::vector<Vec3> u;
+  field.interface_displacement(u);
+  const double a = 5e-3, b = 12.5e-3;
+  const double exact = spec.side_pressure * b * b / (spec.E * (b * b - a * a)) *
+                       ((1.0 - spec.nu) * a + (1.0 + spec.nu) * a);
+  double worst = 0.0;
+  int n = 0;
+  for (std::size_t k = 0; k < u.size(); ++k) {
+    const Vec3& x = mesh.x[k];
+    if (x.z() < -15e-3) continue; // three radii above the floor
+    ++n;
+    worst =
+        std::max(worst, std::abs(-(u[k].x() * x.x() + u[k].y() * x.y()) / a / exact - 1.0));
+  }
+  CAPTURE(worst);
+  CHECK(n > 100);
+  CHECK(worst < 0.02);
+}
+
 TEST_CASE(
     "Pressure on the interface: damped steps end at the static solution, energy balanced",
     "[verification][fem]")

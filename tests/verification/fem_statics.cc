@@ -144,6 +144,24 @@ TEST_CASE("Lame's thick cylinder under inner pressure converges at second order"
   CHECK(fine < 2e-3);
 }
 
+TEST_CASE("Pressures on the surface are in equilibrium with their uniform stress",
+          "[verification][fem]")
+{
+  // sigma = -diag(p_x, p_y, p_z) without support of its sides: two supports per axis at most.
+  const Elastic e{1.1e9, 0.3};
+  const double p_x = 2e6, p_z = 5e6;
+  dealii::Triangulation<3> mesh;
+  make_box({1.0, 2.0, 3.0}, {2, 3, 4}, mesh);
+  const ElasticSolid box(
+      mesh, {e, 1.0, Vec3::Zero(), {}, {{x_high, p_x}, {z_high, p_z}}},
+      {{x_low, Support::roller}, {y_low, Support::roller}, {z_low, Support::roller}});
+  const NodalField u = solve_static(box.discrete(), -box.discrete().f_initial).u;
+  const Vec3 strain = Vec3(-p_x + e.nu * p_z, e.nu * (p_x + p_z), -p_z + e.nu * p_x) / e.E;
+  for (const auto a : all_nodes(box)) // solver tolerance 1e-12
+    CHECK((at(u, a) - box.discrete().x[a].cwiseProduct(strain)).norm() <
+          1e-9 * 3.0 * strain.norm());
+}
+
 TEST_CASE("A column that settles between rollers has sigma_h = nu/(1-nu) sigma_v",
           "[verification][fem]")
 {

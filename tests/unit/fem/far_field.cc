@@ -68,6 +68,16 @@ TEST_CASE("Each wrong entry of the far field is named with its value", "[unit][f
              Contains("gravity"));
   CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.damping = 1.0; }),
              Contains("damping = 1"));
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.surcharge = -1.0; }),
+             Contains("surcharge = -1"));
+  CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.side_pressure = 1e5; }),
+             Contains("side pressure = 100000") && Contains("is held"));
+  CHECK_THAT(complaint(small_chamber(),
+                       [](auto& s) {
+                         s.outer = FarFieldSpec::Outer::pressure;
+                         s.side_pressure = FarFieldSpec::unset;
+                       }),
+             Contains("side pressure = nan"));
 }
 
 TEST_CASE("The interface is one surface that faces the region, on its radius and floor",
