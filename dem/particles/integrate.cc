@@ -30,7 +30,8 @@ TwoRows velocities_of(const ParticleState& b)
 class Kick {
 public:
   Kick(const Particles& p, const Motion& motion, double dt, KickWork& work)
-      : p_(p), motion_(motion), dt_(dt), has_weight_(motion.gravity != Vec3::Zero()),
+      : p_(p), motion_(motion), dt_(dt),
+        has_weight_(motion.gravity != Vec3::Zero() || !p.applied_force.empty()),
         work_(work), damping_(work.damping), gravity_(work.gravity)
   {
   }
@@ -50,7 +51,7 @@ public:
     const TwoRows v = velocities_of(b);
     TwoRows weight{};
     if (has_weight_) {
-      const Vec3 w = true_mass(p_, i) * motion_.gravity;
+      const Vec3 w = dead_load(p_, motion_, i);
       weight = TwoRows{w.x(), w.y(), w.z(), 0.0, 0.0, 0.0, 0.0, 0.0};
       load += weight;
     }
@@ -189,8 +190,7 @@ EnergySum kinetic_energy_sum(const Particles& p, const Motion& motion)
 ForceSum sum_of_resultants(const Particles& p, const Motion& motion)
 {
   ForceSum sum;
-  p.for_owned(
-      [&](Index i) { sum.add((p.load[i].f + true_mass(p, i) * motion.gravity).norm()); });
+  p.for_owned([&](Index i) { sum.add((p.load[i].f + dead_load(p, motion, i)).norm()); });
   return sum;
 }
 

@@ -27,6 +27,14 @@ inline double inertia(const ParticleState& b, const Motion& motion)
   return motion.inertia_factor * b.inertia();
 }
 
+/// Weight and applied force [N].
+inline Vec3 dead_load(const Particles& p, const Motion& motion, Index i)
+{
+  Vec3 f = true_mass(p, i) * motion.gravity;
+  if (!p.applied_force.empty()) f += p.applied_force[i];
+  return f;
+}
+
 /// Whether the particle may spin: the rotation constraint of kick().
 inline bool spins(const Particles& p, const Motion& motion, Index i)
 {
@@ -36,7 +44,7 @@ inline bool spins(const Particles& p, const Motion& motion, Index i)
 /// Work of the kick on all owned particles. Each term is exact for the leapfrog: force at
 /// t^n times the mean of the velocities at n-1/2 and n+1/2.
 struct KickWork {
-  EnergySum gravity; ///< [J]
+  EnergySum gravity; ///< of weight and applied forces [J]
   EnergySum damping; ///< energy lost to local damping [J]
   EnergySum
       rotation_constraint; ///< spin energy of particles that lost their last bond [J], >= 0
@@ -52,9 +60,9 @@ void visit_sums(Work& work, Visit&& visit)
   visit("rotation_constraint", SumKind::by_rank, work.rotation_constraint);
 }
 
-/// v^{n+1/2} = v^{n-1/2} + dt (f - alpha |f| sign v)/m with f = load + m g, component by
-/// component; the same for the spin. Gravity acts on the true mass. Rotation constraint
-/// (paper, section 2.1.2): a particle without an intact bond does not spin.
+/// v^{n+1/2} = v^{n-1/2} + dt (f - alpha |f| sign v)/m with f = load + m g + applied force,
+/// component by component; the same for the spin. Gravity acts on the true mass. Rotation
+/// constraint (paper, section 2.1.2): a particle without an intact bond does not spin.
 /// @param dt mean of the steps before and after [s]
 void kick(Particles& p, const Motion& motion, double dt, KickWork& work);
 
@@ -84,7 +92,8 @@ inline double kinetic_energy(const Particles& p, const Motion& motion = {})
   return kinetic_energy_sum(p, motion).value();
 }
 
-/// Sum of the magnitudes of the resultant forces on owned particles, gravity included [N].
+/// Sum of the magnitudes of the resultant forces on owned particles, gravity and applied
+/// forces included [N].
 ForceSum sum_of_resultants(const Particles& p, const Motion& motion);
 
 } // namespace mergel::dem

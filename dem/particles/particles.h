@@ -50,6 +50,8 @@ struct Particles {
   std::vector<double> strength;  ///< factor of bond strengths [-]; empty: 1 (strength.h)
   /// Mass over the true mass, which has the weight [-]; empty: 1 (assembly/mass_scaling.h).
   std::vector<double> mass_factor;
+  /// Constant force on each particle, such as its share of a surcharge [N]; empty: none.
+  std::vector<Vec3> applied_force;
 
   std::size_t size() const { return state.size(); }
   std::size_t n_owned() const { return n_owned_; }

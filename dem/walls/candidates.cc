@@ -228,4 +228,24 @@ void bond_to_wall(Wall& wall, Particles& p, double limit)
   });
 }
 
+void slide_anchors(Wall& wall, const Particles& p, double dt)
+{
+  for (WallBond& bond : wall.bonds) {
+    if (bond.state.intact == 0.0) continue;
+    const ParticleState& b = p.state[bond.particle];
+    const Triangle& t = wall.topology.triangles[uz(bond.anchor.triangle)];
+    const Vec3 &x_0 = wall.x[uz(t[0])], &x_1 = wall.x[uz(t[1])], &x_2 = wall.x[uz(t[2])];
+    const Vec3 before = at(wall.x, wall.topology, bond.anchor) - (b.x - dt * b.v);
+    const Vec3 area = (x_1 - x_0).cross(x_2 - x_0); // twice the triangle's, not zero
+    const double approach = before.dot(area);
+    if (approach == 0.0) continue; // a particle in the plane of the triangle
+    // Where the line from the particle in this direction meets the plane of the triangle.
+    const Vec3 x = b.x + before * ((x_0 - b.x).dot(area) / approach);
+    const double size2 = area.squaredNorm();
+    const double w_1 = (x - x_0).cross(x_2 - x_0).dot(area) / size2,
+                 w_2 = (x_1 - x_0).cross(x - x_0).dot(area) / size2;
+    bond.anchor.weight = {1.0 - w_1 - w_2, w_1, w_2};
+  }
+}
+
 } // namespace mergel::dem

@@ -128,6 +128,7 @@ struct Wall {
   std::vector<WallBond> bonds;    ///< ascending in particle
   ContactLaw material;
   bool bonds_yield = false; ///< bonds follow the bond law; otherwise they stay elastic
+  bool is_smooth = false;   ///< bonds and contacts get no shear force
   std::vector<WallContactForce>
       contact_forces; ///< of this rank's contacts and bonds in the last step
   EnergySum work;     ///< on the particles by the motion of the nodes, of all ranks [J]
@@ -156,6 +157,10 @@ double travel(const Wall& wall);
 /// Bond each particle whose gap to a patch is below limit S [m] to its closest point there:
 /// a particle in a corner is bonded to both sides. Once for a wall, else std::logic_error.
 void bond_to_wall(Wall& wall, Particles& p, double limit);
+
+/// Anchors follow their particles along a smooth wall at rest: every bond keeps the direction
+/// that it had before the particles moved by dt v. @param dt last step [s]
+void slide_anchors(Wall& wall, const Particles& p, double dt);
 
 /// Sums over the contacts and bonds of a wall in the last step.
 struct WallSums {

@@ -359,7 +359,8 @@ private:
     const End<Lanes> anchor{triples([&](int l) { return x[l]; }), Lanes{},
                             triples([&](int l) { return v[l]; }), b.S, Triple<Lanes>{}};
     const PairMotion<Lanes> k = pair_motion(b, anchor, step_.dt, 1.0);
-    const BondShape<Lanes> shape = bond_shape(law_, b.R, 1.0 / b.R);
+    BondShape<Lanes> shape = bond_shape(law_, b.R, 1.0 / b.R);
+    if (wall.is_smooth) shape.k_s = Lanes{};
     const Triple<Lanes> history = triples([&](int l) {
       const WallBond& bond = *bond_[l];
       return Row{bond.gap_0, bond.state.u_p, bond.state.intact, 0.0};
@@ -405,7 +406,8 @@ void add_wall_forces(Wall& wall, const PairMaterials& material, double dt, Parti
   wall.contact_forces.clear();
   wall.f.clear();
   WallStep step{wall, dt, p, losses};
-  std::visit([&](const auto& law) { ContactForces(step, law).add_all(); }, wall.material);
+  std::visit([&](const auto& law) { ContactForces(step, law).add_all(); },
+             wall.is_smooth ? with_friction(wall.material, 0.0) : wall.material);
   std::visit([&](const auto& law) { BondForces(step, law).add_all(); }, material.bond);
 }
 

@@ -18,7 +18,7 @@ void save_particles(State& state, const Particles& p)
   std::vector<std::uint32_t> number;
   std::vector<double> states, load;
   std::vector<std::int32_t> n_bonds;
-  std::vector<double> mass_factor;
+  std::vector<double> mass_factor, applied_force;
   p.for_owned([&](Index i) {
     const ParticleState& b = p.state[i];
     number.push_back(i);
@@ -28,12 +28,15 @@ void save_particles(State& state, const Particles& p)
     append(load, p.load[i].t);
     n_bonds.push_back(p.n_bonds[i]);
     if (!p.mass_factor.empty()) mass_factor.push_back(p.mass_factor[i]);
+    if (!p.applied_force.empty()) append(applied_force, p.applied_force[i]);
   });
   state.add("grains", std::move(number));
   state.add("grain_bodies", std::move(states), state_columns);
   state.add("grain_loads", std::move(load), load_columns);
   state.add("grain_bonds", std::move(n_bonds));
   if (!p.mass_factor.empty()) state.add("grain_mass_factors", std::move(mass_factor));
+  if (!p.applied_force.empty())
+    state.add("grain_applied_forces", std::move(applied_force), 3);
 }
 
 Particles load_particles(const State& state)
@@ -68,6 +71,10 @@ Particles load_particles(const State& state)
     for (const std::size_t k : order) p.mass_factor.push_back(factors[k]);
     if (!std::all_of(factors.begin(), factors.end(), [](double f) { return f > 0.0; }))
       State::refuse("grain_mass_factors", "has a factor that is not positive");
+  }
+  if (state.has("grain_applied_forces")) {
+    const auto& forces = state.get_rows<double>("grain_applied_forces", n, 3);
+    for (const std::size_t k : order) p.applied_force.push_back(vec_at(forces, 3 * k));
   }
   return p;
 }

@@ -83,6 +83,30 @@ TEST_CASE("A wall bond that may not yield stays elastic, the other one softens a
   CHECK(t.p.n_bonds[0] == 0);
 }
 
+TEST_CASE(
+    "A particle slides along a smooth wall: its bond gets no shear and keeps its direction",
+    "[unit][dem]")
+{
+  Bonded s;
+  s.wall.is_smooth = true;
+  const Vec3 u(0.3 * R, -0.2 * R, -1e-6); // into the wall by 1e-6
+  const int n = 10;
+  for (int k = 0; k < n; ++k) {
+    s.p.state[0].v = u / n;
+    s.p.state[0].x += s.p.state[0].v;
+    slide_anchors(s.wall, s.p, 1.0);
+    clear_loads(s.p);
+    add_wall_forces(s.wall, {s.bond, {}}, 1.0, s.p, s.losses);
+  }
+  const double A = pi * R * R / 9.0, k_n = 400e6 * A / R;
+  const Vec3 f = s.p.load[0].f;
+  CHECK(f.z() == Approx(k_n * 1e-6).epsilon(1e-6)); // a difference of gaps of 1e-3
+  CHECK(std::hypot(f.x(), f.y()) < 1e-12 * f.z());
+  CHECK(s.wall.bonds[0].V == Vec3::Zero());
+  const Vec3 anchor = at(s.wall.x, s.wall.topology, s.wall.bonds[0].anchor);
+  CHECK((anchor - Vec3(s.p.state[0].x.x(), s.p.state[0].x.y(), 0.0)).norm() < 1e-15);
+}
+
 TEST_CASE("The reaction of a wall bond at the nodes balances force and moment",
           "[unit][dem]")
 {
