@@ -9,8 +9,8 @@
 namespace mergel::coupling {
 
 CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>& specs)
-    : step_spec(spec.step), mass_scaling(spec.mass_scaling),
-      largest_subcycle(spec.largest_subcycle)
+    : is_smooth_while_held(spec.is_smooth_while_held), step_spec(spec.step),
+      mass_scaling(spec.mass_scaling), largest_subcycle(spec.largest_subcycle)
 {
   assembly.material = spec.material;
   assembly.motion = spec.motion;

@@ -33,6 +33,8 @@ struct CoupledSpec {
   dem::MassScalingSpec mass_scaling;            ///< of the particles; off by default
   SymmetryPlane symmetry = SymmetryPlane::none; ///< of a half model
   dem::StrengthVariability strengths;           ///< drawn again when a state is loaded
+  bool is_smooth_while_held = false; ///< the walls of the structures, in the first phase
+                                     ///< of settling
 };
 
 /// A structure on its way into a coupled system.
@@ -63,6 +65,7 @@ struct CoupledSystem {
   dem::Assembly assembly;
   std::vector<Member> structures;
   bool are_structures_held = false; ///< true: none takes part in the steps
+  bool is_smooth_while_held = false;
   dem::StepSpec step_spec;
   dem::MassScalingSpec mass_scaling;
   std::size_t largest_subcycle = 1;

@@ -34,6 +34,18 @@ struct Phase {
   const std::function<void()>& after_step;
 };
 
+void set_smooth(CoupledSystem& coupled, bool is_smooth)
+{
+  for (const CoupledSystem::Member& s : coupled.structures)
+    coupled.wall_of(s).is_smooth = is_smooth;
+}
+
+void slide_along_smooth_walls(CoupledSystem& coupled, double dt)
+{
+  for (dem::Wall& wall : coupled.assembly.walls)
+    if (wall.is_smooth) dem::slide_anchors(wall, coupled.assembly.particles, dt);
+}
+
 /// Step until the unbalanced-force ratio is below that of the spec.
 void relax(CoupledSystem& coupled, const Phase& phase)
 {
@@ -45,7 +57,7 @@ void relax(CoupledSystem& coupled, const Phase& phase)
   double now = coupled.unbalanced(), first = now;
   std::size_t& n = coupled.settling.n;
   while (n < phase.spec.max_steps) {
-    coupled.step([](double) {});
+    coupled.step([&](double dt) { slide_along_smooth_walls(coupled, dt); });
     ++n;
     if (n % 50 != 0) {
       after_step();
@@ -135,9 +147,11 @@ void equilibrate(CoupledSystem& coupled, const EquilibriumSpec& spec,
   Settling& settling = coupled.settling;
   if (settling.phase == Settling::Phase::held) {
     coupled.are_structures_held = true;
+    set_smooth(coupled, coupled.is_smooth_while_held);
     if (settling.n == 0) coupled.equalise_frequencies();
     relax(coupled, {"settling in held walls", spec, report, after_step});
     coupled.are_structures_held = false;
+    set_smooth(coupled, false);
     const WallMotion motion = settle_structures(coupled);
     if (motion.is_any) follow_walls(coupled, motion);
     coupled.equalise_frequencies();
