@@ -2,6 +2,7 @@
 
 #include "apps/case/motion_keys.h"
 #include "apps/case/unusual.h"
+#include "dem/error.h"
 #include "dem/text.h"
 
 #include <cmath>
@@ -30,21 +31,41 @@ void declare_far_field(CaseFile& file, CoupledCase& c)
               "Ratio of neighbouring cell sizes away from the DEM region.");
   {
     const auto only = file.only_if("model", {"elastic"});
-    file.quantity("Young's modulus", f.E, "Pa", positive, "E of the intact rock.", "GPa");
-    file.number("Poisson ratio", f.nu, from_to(0.0, 0.5).named("nu"),
-                "nu of the intact rock.");
+    file.path("elasticity from", c.elasticity_from,
+              "Results folder of a test of the rock, `mergel element` with a stage of "
+              "compression or triaxial: its summary.json gives E and nu.");
+    file.derived("Young's modulus", f.E, "Pa", positive, "that of `elasticity from`",
+                 "E of the intact rock.", "GPa");
+    file.derived("Poisson ratio", f.nu, "1", from_to(0.0, 0.5).named("nu"),
+                 "that of `elasticity from`", "nu of the intact rock.");
     file.derived("K0", f.K0, "1", non_negative, "nu/(1 - nu)",
                  "Initial horizontal over vertical stress; by default that of an elastic "
                  "solid that has settled between rollers.");
-    file.choice("outer boundary", f.outer,
-                std::vector<std::pair<std::string, fem::FarFieldSpec::Outer>>{
-                    {"roller", fem::FarFieldSpec::Outer::roller},
-                    {"fixed", fem::FarFieldSpec::Outer::fixed}},
-                "Chamber wall: no radial displacement, or none at all.");
+    file.choice(
+        "outer boundary", f.outer,
+        std::vector<std::pair<std::string, fem::FarFieldSpec::Outer>>{
+            {"roller", fem::FarFieldSpec::Outer::roller},
+            {"fixed", fem::FarFieldSpec::Outer::fixed},
+            {"pressure", fem::FarFieldSpec::Outer::pressure}},
+        "Chamber wall: no radial displacement, none at all, or a flexible wall under "
+        "`side pressure`.");
     file.integer("largest subcycle", c.largest_subcycle, between(1.0, 10.0),
                  "Largest number of steps after which the far field's own forces act, by "
                  "impulse; fewer where its frequency asks for it. 1: at every step.");
   }
+  {
+    const auto only = file.only_if("outer boundary", {"pressure"});
+    file.quantity(
+        "side pressure", c.side_pressure, "Pa", non_negative,
+        "On the chamber wall. It strains the chamber, whose initial stress is that "
+        "at rest.",
+        "kPa");
+  }
+  file.quantity(
+      "surcharge", c.surcharge, "Pa", non_negative,
+      "Vertical pressure on the surface of particles and far field: the state of a "
+      "pile that starts at depth.",
+      "kPa");
   file.choice("interface", c.interface_bond,
               std::vector<std::pair<std::string, InterfaceBond>>{
                   {"bonded", InterfaceBond::bonded},
@@ -79,6 +100,32 @@ void declare_motion(CaseFile& file, CoupledCase& c)
   file.former_name("balance", "unbalanced-force tolerance");
   file.number("unbalanced-force tolerance", c.unbalanced_tolerance, inside(0.0, 1.0),
               "Unbalanced-force ratio at which a state counts as equilibrium.");
+}
+
+/// E and nu where the case does not give them: those of the test that it names.
+void complete_elasticity(CaseFile& file, CoupledCase& c)
+{
+  const std::filesystem::path& folder = c.elasticity_from;
+  if (folder.empty()) {
+    for (const char* key : {"Young's modulus", "Poisson ratio"})
+      if (!file.is_given("Far field", key))
+        throw InputError(
+            file.where("Far field", key) +
+            ": must be given, or `elasticity from` names the results folder of "
+            "a `mergel element` test that has measured it");
+    return;
+  }
+  std::error_code error;
+  const bool is_known = file.is_given("Far field", "Young's modulus") &&
+                        file.is_given("Far field", "Poisson ratio");
+  if (is_known && !std::filesystem::exists(folder, error)) return; // a resolved case
+  try {
+    c.rock = measured_elasticity(folder);
+  } catch (const InputError& e) {
+    file.refuse("Far field", "elasticity from", e.what());
+  }
+  file.derive("Far field", "Young's modulus", c.rock->E);
+  file.derive("Far field", "Poisson ratio", c.rock->nu);
 }
 
 } // namespace
@@ -123,8 +170,11 @@ void complete(CaseFile& file, CoupledCase& c)
   f.region_height = c.height;
   f.rho = s.rho * (1.0 - s.porosity);
   if (c.model == coupling::FarFieldStructure::Model::elastic) {
+    complete_elasticity(file, c);
     file.derive("Far field", "K0", f.nu / (1.0 - f.nu));
     f.gravity = c.gravity;
+    f.surcharge = c.surcharge;
+    if (f.outer == fem::FarFieldSpec::Outer::pressure) f.side_pressure = c.side_pressure;
   } else { // a wall: it has neither strain nor stress
     f.E = 1.0;
     f.nu = f.K0 = f.gravity = 0.0;

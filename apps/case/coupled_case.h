@@ -2,6 +2,7 @@
 /// far field, motion.
 #pragma once
 
+#include "apps/case/measured_elasticity.h"
 #include "apps/case/specimen_keys.h"
 #include "coupling/far_field_structure.h"
 #include "dem/assembly/mass_scaling.h"
@@ -28,6 +29,11 @@ struct CoupledCase : SpecimenKeys {
   // Far field
   coupling::FarFieldStructure::Model model = coupling::FarFieldStructure::Model::elastic;
   fem::FarFieldSpec far_field;
+  std::filesystem::path
+      elasticity_from; ///< results folder of an element test; may be empty
+  std::optional<MeasuredElasticity> rock; ///< read there by complete()
+  double side_pressure = unset;      ///< on the chamber wall [Pa]; unset where that is held
+  double surcharge = 0.0;            ///< on the surface of particles and far field [Pa]
   double interface_modulus = unset;  ///< [Pa]
   double interface_friction = unset; ///< [-]
   dem::ContactLaw interface;         ///< set by complete()

@@ -2,9 +2,11 @@
 
 #include "apps/run/progress.h"
 #include "coupling/equilibrium.h"
+#include "dem/specimen/surface_load.h"
 
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 namespace mergel::apps {
 
@@ -36,6 +38,7 @@ coupling::CoupledSpec coupled_spec(const CoupledCase& c)
     spec.symmetry = c.symmetry == Symmetry::mirror ? coupling::SymmetryPlane::bonded
                                                    : coupling::SymmetryPlane::contact;
   spec.strengths = c.strengths;
+  spec.is_smooth_while_held = c.surcharge > 0.0;
   spec.largest_subcycle = static_cast<std::size_t>(c.largest_subcycle);
   return spec;
 }
@@ -50,6 +53,41 @@ std::vector<coupling::StructureSpec> structures(const CoupledCase& c,
                    c.interface, c.interface_bond != InterfaceBond::frictional,
                    c.interface_bond == InterfaceBond::breakable});
   return specs;
+}
+
+void apply_surcharge(const CoupledCase& c, dem::Particles& p)
+{
+  if (c.surcharge > 0.0)
+    p.applied_force = dem::surface_load(p, c.specimen.region, c.surcharge);
+}
+
+namespace {
+
+/// rho c of plane compression waves [Pa s/m]; -1 < nu < 0.5.
+double impedance(double rho, double E, double nu)
+{
+  return std::sqrt(rho * E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)));
+}
+
+} // namespace
+
+std::string report_on_impedance(const CoupledCase& c)
+{
+  if (c.model != coupling::FarFieldStructure::Model::elastic) return "";
+  const fem::FarFieldSpec& f = c.far_field;
+  const double far = impedance(f.rho, f.E, f.nu);
+  std::ostringstream out;
+  out.precision(3);
+  out << "far field: impedance rho c " << far << " Pa s/m";
+  if (!c.rock) return out.str() + '\n';
+  const double rock = impedance(f.rho, c.rock->E, c.rock->nu), ratio = rock / far;
+  out << ", that of the rock " << rock << " Pa s/m, ratio " << ratio << '\n';
+  if (std::abs(ratio - 1.0) > 0.1)
+    out << "warning: rock and far field differ in impedance by more than 10 %, so waves "
+           "come "
+           "back from the interface: leave out `Far field/Young's modulus` and `Poisson "
+           "ratio`, which then follow from `elasticity from`\n";
+  return out.str();
 }
 
 const fem::FarField& far_field_of(const coupling::CoupledSystem& coupled)

@@ -5,6 +5,7 @@
 #include "coupling/coupled_system.h"
 
 #include <functional>
+#include <string>
 
 namespace mergel::apps {
 
@@ -17,6 +18,13 @@ fem::FarField make_far_field(CoupledCase& c, MPI_Comm comm);
 coupling::CoupledSpec coupled_spec(const CoupledCase& c);
 std::vector<coupling::StructureSpec> structures(const CoupledCase& c,
                                                 fem::FarField far_field);
+
+/// Put the surcharge of the case on the topmost of all particles of its specimen.
+void apply_surcharge(const CoupledCase& c, dem::Particles& p);
+
+/// Lines on the impedance of an elastic far field, and of the rock where a test has measured
+/// it, with a warning where they differ by more than 10 %.
+std::string report_on_impedance(const CoupledCase& c);
 
 /// The far field of such a system.
 const fem::FarField& far_field_of(const coupling::CoupledSystem& coupled);

@@ -92,8 +92,11 @@ std::string PileJob::what_is_done(const Restart& restart) const
 void PileJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
 {
   fem::FarField far_field = make_far_field(case_.assembly, comm);
-  const dem::Sample sample = obtain_sample(file, case_.assembly);
-  std::cout << far_field.summary() << '\n' << report(case_.assembly, sample) << '\n';
+  dem::Sample sample = obtain_sample(file, case_.assembly);
+  std::cout << far_field.summary() << '\n'
+            << report_on_impedance(case_.assembly) << report(case_.assembly, sample)
+            << '\n';
+  apply_surcharge(case_.assembly, sample.packing.particles);
   coupled_.emplace(coupled_spec(case_.assembly),
                    structures(case_.assembly, std::move(far_field)),
                    sample.packing.particles, sample.bonding, comm);

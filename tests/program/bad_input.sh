@@ -85,6 +85,17 @@ refuse_set "pile wider than the DEM region" "${place}(Pile|Specimen)/diameter = 
 refuse_set "DEM region wider than the far field" "${place}(Specimen|Far field)/.* = .*: .*" \
   "Specimen/diameter=30 mm"
 
+refuse_set "a surcharge that pulls" "${place}Far field/surcharge = -1 kPa: .*" \
+  "Far field/surcharge=-1 kPa"
+refuse_set "a chamber wall under no pressure" \
+  'good\.prm(:[0-9]+)?: Far field/side pressure: must be given, .*' \
+  "Far field/outer boundary=pressure"
+refuse_set "a side pressure on a held wall" "${place}Far field/side pressure = 1 MPa: .*outer boundary.*" \
+  "Far field/side pressure=1 MPa"
+mkdir -p no_test
+refuse_set "elasticity of no test" "${place}Far field/elasticity from = no_test: has no summary\\.json\\. .*" \
+  "Far field/elasticity from=no_test"
+
 ## the output folder
 echo text >file
 refuse "a file in the way" 'output folder file: .*file" exists and is not a folder\. .*' \

@@ -1,6 +1,8 @@
 #include "apps/pile/pile_case.h"
+#include "apps/coupled/system_of_case.h"
 #include "tests/support/repository.h"
 #include "tests/support/shipped_case.h"
+#include "tests/support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -160,6 +162,80 @@ TEST_CASE("moduli, friction and lengths that a pile case leaves out follow from 
   CHECK(dem::modulus(stiff.assembly.interface) == 2e9);
   CHECK(dem::friction(stiff.assembly.interface) == 0.5);
   CHECK(stiff.assembly.far_field.K0 == 1.0 / 3.0);
+}
+
+TEST_CASE("the far field takes E and nu from the results of an element test, unless given",
+          "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  const std::filesystem::path test = folder.path;
+  // The first stage has no Poisson's ratio.
+  std::ofstream(test / "summary.json")
+      << "{\n  \"stages\": [\n    {\n      \"stage\": \"tension\",\n"
+         "      \"Young's modulus [Pa]\": 2e9\n    },\n    {\n"
+         "      \"stage\": \"compression\",\n      \"Young's modulus [Pa]\": 1.05e9,\n"
+         "      \"Poisson's ratio [-]\": 0.2\n    }\n  ],\n"
+         "  \"time step [s]\": 1e-7\n}\n";
+  const std::string text =
+      mergel::test::without("pile_small.prm", {"Young's modulus", "Poisson ratio", "K0"});
+  const std::string from =
+      "subsection Far field\n set elasticity from = " + test.string() + "\nend\n";
+  const PileCase c = read_text_of(text + from);
+  CHECK(c.assembly.far_field.E == 1.05e9);
+  CHECK(c.assembly.far_field.nu == 0.2);
+  CHECK(c.assembly.far_field.K0 == 0.2 / (1.0 - 0.2));
+  const std::string matched = report_on_impedance(c.assembly);
+  CHECK(matched.find("ratio 1\n") != std::string::npos);
+  CHECK(matched.find("warning") == std::string::npos);
+
+  // With another E beside it the impedances differ: sqrt(1.05/2.1).
+  const PileCase other = read_text_of(text + from +
+                                      "subsection Far field\n set Young's modulus = 2.1 "
+                                      "GPa\n set Poisson ratio = 0.2\nend\n");
+  CHECK(other.assembly.far_field.E == 2.1e9);
+  const std::string unmatched = report_on_impedance(other.assembly);
+  CHECK(unmatched.find("ratio 0.707\n") != std::string::npos);
+  CHECK(unmatched.find("warning: rock and far field differ") != std::string::npos);
+
+  // A folder without a measured E is refused, one that is gone where the case lacks numbers.
+  const auto refused = [&](const std::string& what) -> std::string {
+    try {
+      read_text_of(text + what);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  using Catch::Contains;
+  CHECK_THAT(refused(""), Contains("Far field/Young's modulus: must be given, or "
+                                   "`elasticity from` names the results folder"));
+  std::filesystem::remove(test / "summary.json");
+  CHECK_THAT(refused(from),
+             Contains("Far field/elasticity from = ") && Contains("has no summary.json"));
+  std::ofstream(test / "summary.json") << "{\n  \"stages\": []\n}\n";
+  CHECK_THAT(refused(from), Contains("has no stage with Young's modulus"));
+}
+
+TEST_CASE(
+    "surcharge and side pressure reach the far field; each is refused where it is void",
+    "[unit][apps]")
+{
+  const PileCase c = read_case("pile_small.prm", {"Far field/surcharge=200 kPa",
+                                                  "Far field/outer boundary=pressure",
+                                                  "Far field/side pressure=0.1 MPa"});
+  CHECK(c.assembly.surcharge == Approx(2e5));
+  CHECK(c.assembly.far_field.surcharge == c.assembly.surcharge);
+  CHECK(c.assembly.far_field.side_pressure == Approx(1e5));
+  CHECK(read_case("pile_small.prm").assembly.far_field.surcharge == 0.0);
+
+  using Catch::Contains;
+  CHECK_THAT(refusal({"Far field/outer boundary=pressure"}),
+             Contains("Far field/side pressure: must be given"));
+  CHECK_THAT(refusal({"Far field/side pressure=1 MPa"}),
+             Contains("Far field/side pressure"));
+  CHECK_THAT(refusal({"Far field/surcharge=-1 kPa"}),
+             Contains("Far field/surcharge = -1 kPa"));
+  CHECK_THAT(refusal({"Far field/surcharge=1"}), Contains("has no unit"));
 }
 
 TEST_CASE("held walls need no modulus and carry no stress", "[unit][apps]")
