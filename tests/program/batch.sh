@@ -68,6 +68,12 @@ cat >bin/scontrol <<'STUB'
 #!/usr/bin/env bash
 echo "scontrol $*" >>calls
 STUB
+cat >bin/squeue <<'STUB'
+#!/usr/bin/env bash
+# The end of the job, as Slurm writes it.
+echo "squeue $*" >>calls
+cat end_of_job
+STUB
 cat >build/mergel <<'STUB'
 #!/usr/bin/env bash
 # Ends with the code in the file `code`; without one it runs until a signal, as a long run does.
@@ -150,8 +156,29 @@ check "a run that is done: exit code 0" is "$code_of_script" 0
 echo 2 >code
 run run.sbatch pile case.prm --output out --restart out
 check "the exit code of mergel is the job's" is "$code_of_script" 2
-MERGEL_LAUNCHER="mpirun --bind-to core" run run.sbatch pile case.prm --output out_2
+# ends_in SECONDS: the time limit of the job
+ends_in() { date -d "$1 seconds" +%Y-%m-%dT%H:%M:%S >end_of_job; }
+# walltime LOW HIGH: of mergel [s]; the script takes some seconds
+walltime() { awk -v low="$1" -v high="$2" '/^mergel .* --walltime [0-9]+ s$/ { t = $(NF - 1) } END { exit !(t >= low && t <= high) }' calls; }
+export MERGEL_LAUNCHER="mpirun --bind-to core"
+echo N/A >end_of_job
+run run.sbatch pile case.prm --output out_2
 check "another launcher" called "mpirun --bind-to core $work/build/mergel pile case.prm --output out_2"
+check "no time limit: no --walltime, which is said" said 'run.sbatch: the job has no time limit'
+ends_in 86400
+run run.sbatch pile case.prm --output out_3
+check "mpirun: --walltime is seven minutes less than the time limit" walltime 85000 85980
+ends_in 600
+run run.sbatch element case.prm --output out_4
+check "mpirun: a third of a short limit" walltime 150 200
+for arguments in "pile case.prm --walltime 1h" "pile case.prm --walltime=1h" "bond case.prm" "sample case.prm"; do
+  # shellcheck disable=SC2086
+  run run.sbatch $arguments
+  check "mpirun: mergel $arguments gets no other --walltime" called "mergel $arguments"
+done
+unset MERGEL_LAUNCHER
+run run.sbatch pile case.prm --output out_5
+check "srun: no --walltime" called "mergel pile case.prm --output out_5"
 run run.sbatch pile
 check "too few arguments: exit code 1" is "$code_of_script" 1
 MERGEL=none run run.sbatch pile case.prm
@@ -176,6 +203,9 @@ check "the second case, two settings" called \
   "mergel pile cases/small.prm --output runs/2_small --restart runs/2_small --set Pile/friction = 0.3 --set Specimen/seed = 2"
 SLURM_ARRAY_TASK_ID=3 run array.sbatch pile cases.txt runs
 check "the third case, no setting" called "mergel pile cases/large.prm --output runs/3_large --restart runs/3_large"
+ends_in 86400
+MERGEL_LAUNCHER=mpirun SLURM_ARRAY_TASK_ID=1 run array.sbatch pile cases.txt runs
+check "mpirun: a case stops before the time limit" walltime 85000 85980
 for task in 0 4; do
   SLURM_ARRAY_TASK_ID=$task run array.sbatch pile cases.txt runs
   check "no case $task: exit code 1" is "$code_of_script" 1
