@@ -274,6 +274,41 @@ mkdir lost
 echo 0 >code
 run requeue.sbatch pile case.prm lost
 check "lost before the first checkpoint: resumed" is "$code_of_script" 0
+
+# Queued again, as its node did not answer, while the ranks there go on.
+# held SIGNAL: a run holds the lock of the folder until the script says that it waits; then the signal, or its end.
+held()
+{
+  local pid holder n
+  mkdir -p held
+  rm -f calls log
+  : >calls
+  (flock 9 && exec sleep 3600) 9>held/.mergel.lock &
+  holder=$!
+  until ! flock --nonblock held/.mergel.lock true; do sleep 0.05; done
+  SLURM_RESTART_COUNT=1 bash "$batch/requeue.sbatch" pile case.prm held >log 2>&1 &
+  pid=$!
+  for ((n = 0; n < 18000; ++n)); do ! said 'still writing in held: waiting' || break; sleep 0.05; done
+  if [ "$1" = end ]; then kill $holder; else kill -"$1" $pid; fi
+  code_of_script=0
+  wait $pid || code_of_script=$?
+  kill $holder 2>/dev/null || true
+  wait $holder 2>/dev/null || true
+}
+echo 0 >code
+held end
+check "ranks of an earlier start: their end is awaited" said 'still writing in held: waiting for its end'
+check "and then the run goes on" called "mergel pile case.prm --output held --restart held"
+check "to its end" is "$code_of_script" 0
+held USR1
+check "the time limit while waiting: queued again" called "scontrol requeue 17"
+check "the time limit while waiting: nothing is started" never_called srun
+held TERM
+check "cancelled while waiting: not queued again" never_called scontrol
+check "cancelled while waiting: nothing is started" never_called srun
+run requeue.sbatch pile case.prm held
+check "a lock that nobody holds is not waited for" called "mergel pile case.prm --output held --restart held"
+rm code
 export MERGEL_LAUNCHER="mpirun --map-by core"
 interrupted USR1 requeue.sbatch pile case.prm other
 check "mpirun: a checkpoint first" called USR1
