@@ -31,11 +31,12 @@ if [ -z "${MERGEL_CLUSTER:-}" ]; then
   MERGEL_CLUSTER=$(mktemp -d)
   export MERGEL_CLUSTER
   chmod 755 "$MERGEL_CLUSTER" # munged and its clients ask for that
-  trap '[ -z "$(jobs -pr)" ] || kill -KILL $(jobs -pr); wait; rm -rf "$MERGEL_CLUSTER"' EXIT
+  child=''
+  trap '[ -z "$child" ] || kill -KILL "$child" 2>/dev/null || true; wait; rm -rf "$MERGEL_CLUSTER"' EXIT
   trap 'exit 1' TERM INT HUP
   unshare --mount --uts --ipc --net --pid --fork --kill-child --mount-proc "$0" "$@" &
-  code=0
-  wait $! || code=$?
+  child=$! code=0
+  wait "$child" || code=$?
   exit $code
 fi
 
@@ -51,7 +52,8 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yi
 
 ## the cluster
 
-# Credentials that expire soon: a job that is queued again waits for that. Nodes that do not answer are down
+# Slurm binds ranks only where the script says task_plugin=affinity: the first ranks of both nodes would be bound to
+# one processor. Credentials that expire soon: a job that is queued again waits for that. Nodes that do not answer are down
 # after 9 s, which is 5 minutes by default.
 write_configuration()
 {
@@ -74,7 +76,7 @@ SlurmdPidFile=$work/slurmd.%n.pid
 SlurmctldLogFile=$work/slurmctld.daemon
 SlurmdLogFile=$work/slurmd.%n.daemon
 ProctrackType=proctrack/linuxproc
-TaskPlugin=task/affinity
+TaskPlugin=task/${task_plugin:-none}
 JobAcctGatherType=jobacct_gather/linux
 JobCompType=jobcomp/filetxt
 JobCompLoc=$work/completed.txt
@@ -180,53 +182,66 @@ record()
   echo "$line"
 }
 
-# to_its_end JOB STATE EXIT_CODE
+# to_its_end JOB STATE [EXIT_CODE]
 to_its_end()
 {
   wait_until is_over "$1"
   record "$1"
   has "$1" JobState "$2" || fail "job $1 is $(field "$1" JobState), not $2: $(tail -3 "$(field "$1" StdOut)")"
-  has "$1" ExitCode "$3" || fail "job $1: exit code $(field "$1" ExitCode), not $3: $(tail -3 "$(field "$1" StdOut)")"
+  [ $# -lt 3 ] || has "$1" ExitCode "$3" || fail "job $1: exit code $(field "$1" ExitCode), not $3: $(tail -3 "$(field "$1" StdOut)")"
 }
 
 log_of() { cat "$(field "$1" StdOut)"; }
 says() { log_of "$1" | grep -Eq -- "$2" || fail "job $1 does not say \"$2\": $(log_of "$1" | tail -5)"; }
 
-# while_running JOB CONDITION...: wait until it holds.
-while_running()
+# halt_ranks JOB CONDITION...: as soon as it holds. A run here takes a second where nothing else runs.
+halt_ranks()
 {
-  local job=$1
+  local job=$1 n=0
   shift
   until "$@"; do
-    ! is_over "$job" || { "$@" && return; fail "job $job ended before \"$*\": $(log_of "$job" | tail -3)"; }
-    sleep 0.1
+    sleep 0.005
+    [ $((++n % 200)) -ne 0 ] || ! is_over "$job" || "$@" ||
+      fail "job $job ended before \"$*\": $(log_of "$job" | tail -3)"
   done
+  pkill -STOP -x mergel || fail "job $job has no ranks after \"$*\": $(log_of "$job" | tail -3)"
+  wait_until are_halted
 }
-has_lines() { [ "$(cat "$1/history.csv" 2>/dev/null | wc -l)" -ge "$2" ]; } # FOLDER N
+
+# The ranks go on, once a signal has reached one of them.
+go_on()
+{
+  wait_until are_signalled
+  pkill -CONT -x mergel || true # they may have ended
+}
+
+has_lines() { local l; { mapfile -t l <"$1/history.csv"; } 2>/dev/null && [ ${#l[@]} -ge "$2" ]; } # FOLDER N
 has_checkpoint() { compgen -G "$1/checkpoint*.h5" >/dev/null; }
 
 ## ranks
 
-# Whether a stopped rank has this signal waiting, by its number.
-is_pending()
+# state_of_ranks: a line for each, its state and the mask of signals that wait for it
+state_of_ranks()
 {
-  local pid mask
+  local pid
   for pid in $(pgrep -x mergel); do
-    mask=$(awk '/^ShdPnd/ { print $2 }' "/proc/$pid/status") || continue
-    [ $(((16#$mask >> ($1 - 1)) & 1)) -eq 0 ] || return 0
+    awk '/^State/ { state = $2 } /^ShdPnd/ { print state, $2 }' "/proc/$pid/status" 2>/dev/null || true
   done
-  return 1
+}
+are_halted() { ! state_of_ranks | grep -qv '^[Tt]'; }
+# Whether a signal waits for a halted rank, or has woken it: Slurm sends SIGCONT with some.
+are_signalled() { ! are_halted || state_of_ranks | grep -qv ' 0*$' || ! pgrep -x mergel >/dev/null; }
+
+# meets_limit JOB: Slurm finds, when it looks next, that the job is near its time limit. It looks twice a minute.
+meets_limit()
+{
+  local minutes=$((($(date +%s) - $(date -d "$(field "$1" StartTime)" +%s)) / 60))
+  scontrol update "JobId=$1" "TimeLimit=$((minutes + 2))"
 }
 
-# at_time_limit JOB SIGNAL: let Slurm find that the job is near its time limit. Its ranks are halted meanwhile, as
-# Slurm looks twice a minute only, until SIGNAL has reached one of them.
-at_time_limit()
-{
-  pkill -STOP -x mergel
-  scontrol update "JobId=$1" "TimeLimit=$(($(date +%s) / 60 - $(date -d "$(field "$1" StartTime)" +%s) / 60 + 2))"
-  wait_until is_pending "$(kill -l "$2")"
-  pkill -CONT -x mergel
-}
+was_restarted() { has "$1" Restarts "$2" || is_over "$1"; }
+newest() { local c=("$1"/checkpoint*.h5); echo "${c[-1]}"; }
+has_newer() { local c=("$1"/checkpoint*.h5); [ -e "${c[-1]}" ] && [ "${c[-1]}" != "$2" ]; } # FOLDER CHECKPOINT
 
 ## the run: a periodic cell of some hundred particles under triaxial compression
 
@@ -238,3 +253,28 @@ cell=(--set "Specimen/edge x=3.5 mm" --set "Specimen/edge y=3.5 mm" --set "Speci
 # Without Slurm, on one rank and never stopped.
 whole_run() { "$mergel" element "$case_file" "${cell[@]}" --output whole >whole.log 2>&1 || fail "the run without Slurm: $(tail -3 whole.log)"; }
 same_as_whole() { cmp whole/history.csv "$1/history.csv" || fail "$1: its history is not that of the run that was never stopped"; }
+
+# meets_its_limit RESULTS SBATCH_OPTION...: requeue.sbatch, whose job meets its time limit twice.
+meets_its_limit()
+{
+  local results=$1 lap n=0 before=none
+  shift
+  submit "$@" "$batch/requeue.sbatch" element "$case_file" "$results" "${cell[@]}"
+  for lap in 1 2; do
+    halt_ranks "$job" has_lines "$results" $((n + 3))
+    meets_limit "$job"
+    go_on
+    # What mpirun starts is not stopped at its checkpoint, but by the script, which looks once a second.
+    [ -z "${MERGEL_LAUNCHER:-}" ] || halt_ranks "$job" has_newer "$results" "$before"
+    wait_until was_restarted "$job" $lap
+    has "$job" Restarts $lap || fail "not queued again: $(log_of "$job" | tail -3)"
+    before=$(newest "$results")
+    record "$job"
+    scontrol update "JobId=$job" TimeLimit=60
+    n=$(wc -l <"$results/history.csv")
+  done
+  to_its_end "$job" COMPLETED 0:0
+  [ "$(log_of "$job" | grep -Ec "stopped for the time limit at $results/checkpoint_.*: queued again")" -eq 2 ] ||
+    fail "not queued again twice: $(log_of "$job" | grep requeue)"
+  same_as_whole "$results"
+}

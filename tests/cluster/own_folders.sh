@@ -6,6 +6,7 @@
 # usage: tests/cluster/own_folders.sh MERGEL     as root; see cluster.sh
 . "$(dirname "$0")/cluster.sh"
 mkdir own own_of_n2
+start_cluster "mount --bind $work/own_of_n2 $work/own"
 "$mergel" sample "$case_file" "${cell[@]}" --output rock >rock.log 2>&1 || fail "the specimen: $(tail -3 rock.log)"
 "$mergel" sample "$case_file" "${cell[@]}" --set "Specimen/seed=2" --output rock_2 >rock.log 2>&1 || fail "the specimen: $(tail -3 rock.log)"
 cp rock/sample.h5 own/rock.h5
@@ -13,7 +14,6 @@ cp rock_2/sample.h5 own_of_n2/rock.h5
 cp "$case_file" own/differs.prm
 sed 's/seed .*= 1/seed = 2/' "$case_file" >own_of_n2/differs.prm
 cp "$case_file" own/on_n1.prm
-start_cluster "mount --bind $work/own_of_n2 $work/own"
 
 # is_refused RESULTS MESSAGE ARGUMENT...: of mergel element, one rank a node
 is_refused()
