@@ -16,7 +16,7 @@ fail() { echo "FAILED: $*"; exit 1; }
 require_cluster()
 {
   local missing=() program
-  for program in munged slurmctld slurmd sbatch srun mpirun ip unshare nsenter; do
+  for program in pgrep munged slurmctld slurmd sbatch srun mpirun ip unshare nsenter; do
     command -v "$program" >/dev/null || missing+=("$program")
   done
   [ ${#missing[@]} -eq 0 ] || fail "the cluster needs ${missing[*]}: ./bootstrap cluster installs what is missing"
@@ -89,7 +89,7 @@ MinJobAge=86400
 ReturnToService=2
 SlurmdParameters=config_overrides
 NodeName=n[1-2] Sockets=1 CoresPerSocket=2 ThreadsPerCore=1 RealMemory=8000
-PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+${partitions:-PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP}
 CONF
 }
 
@@ -254,13 +254,13 @@ cell=(--set "Specimen/edge x=3.5 mm" --set "Specimen/edge y=3.5 mm" --set "Speci
 whole_run() { "$mergel" element "$case_file" "${cell[@]}" --output whole >whole.log 2>&1 || fail "the run without Slurm: $(tail -3 whole.log)"; }
 same_as_whole() { cmp whole/history.csv "$1/history.csv" || fail "$1: its history is not that of the run that was never stopped"; }
 
-# meets_its_limit RESULTS SBATCH_OPTION...: requeue.sbatch, whose job meets its time limit twice.
+# meets_its_limit RESULTS N SBATCH_OPTION...: requeue.sbatch, whose job meets its time limit N times.
 meets_its_limit()
 {
-  local results=$1 lap n=0 before=none
-  shift
+  local results=$1 n_limits=$2 lap n=0 before=none
+  shift 2
   submit "$@" "$batch/requeue.sbatch" element "$case_file" "$results" "${cell[@]}"
-  for lap in 1 2; do
+  for ((lap = 1; lap <= n_limits; ++lap)); do
     halt_ranks "$job" has_lines "$results" $((n + 3))
     meets_limit "$job"
     go_on
@@ -274,7 +274,7 @@ meets_its_limit()
     n=$(wc -l <"$results/history.csv")
   done
   to_its_end "$job" COMPLETED 0:0
-  [ "$(log_of "$job" | grep -Ec "stopped for the time limit at $results/checkpoint_.*: queued again")" -eq 2 ] ||
-    fail "not queued again twice: $(log_of "$job" | grep requeue)"
+  [ "$(log_of "$job" | grep -Ec "stopped for the time limit at $results/checkpoint_.*: queued again")" -eq "$n_limits" ] ||
+    fail "not queued again $n_limits times: $(log_of "$job" | grep requeue)"
   same_as_whole "$results"
 }

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # A node is lost while it runs requeue.sbatch: Slurm queues the job again, on the other node, where it goes on from
-# its last checkpoint, once the ranks of the first start are gone. Its history is that of the run that was never stopped, byte for byte.
+# its last checkpoint, once the ranks of the first start are gone. Its history is that of the run that was never
+# stopped, byte for byte.
 #
 # usage: tests/cluster/lost_node.sh MERGEL     as root; see cluster.sh
 . "$(dirname "$0")/cluster.sh"

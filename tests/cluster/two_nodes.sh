@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# One run on two nodes under Slurm: to its end, stopped by hand, and at its time limit, which it meets twice. Its history
-# is that of the run without Slurm, byte for byte.
+# One run on two nodes under Slurm: to its end, stopped by hand, and at its time limit, which it meets twice. Its
+# history is that of the run without Slurm, byte for byte.
 #
 # usage: tests/cluster/two_nodes.sh MERGEL     as root; see cluster.sh
 . "$(dirname "$0")/cluster.sh"
@@ -23,5 +23,5 @@ submit "${run[@]}" --output stopped --restart stopped
 to_its_end "$job" COMPLETED 0:0
 same_as_whole stopped
 
-meets_its_limit limited --nodes=2 --ntasks-per-node=1
+meets_its_limit limited 2 --nodes=2 --ntasks-per-node=1
 echo "two nodes under Slurm: all as on one rank"

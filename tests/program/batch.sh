@@ -66,7 +66,8 @@ exit $code
 STUB
 cat >bin/scontrol <<'STUB'
 #!/usr/bin/env bash
-echo "scontrol $*" >>calls
+# Its record of the job is in the file `record`.
+if [ "$1" = show ]; then cat record; else echo "scontrol $*" >>calls; fi
 STUB
 cat >bin/squeue <<'STUB'
 #!/usr/bin/env bash
@@ -95,6 +96,7 @@ trap '[ -e deaf ] || write_checkpoint; echo "TERM" >>calls; exit 2' TERM
 while :; do sleep 0.05; done
 STUB
 chmod +x bin/* build/mergel
+echo 'JobState=RUNNING PreemptEligibleTime=2026-01-02T03:04:05 PreemptTime=None' >record
 export PATH=$work/bin:$PATH SLURM_SUBMIT_DIR=$work SLURM_JOB_ID=17
 unset SLURM_RESTART_COUNT SLURM_ARRAY_TASK_ID MERGEL MERGEL_LAUNCHER MERGEL_MOST_RESTARTS
 
@@ -244,10 +246,15 @@ stopped_by_hand long
 check "stopped by hand: a checkpoint" test -s long/checkpoint_3.h5
 check "stopped by hand: the exit code of mergel" is "$code_of_script" 2
 check "stopped by hand: not queued again" never_called scontrol
+sed -i 's/PreemptTime=None/PreemptTime=2026-01-02T03:05:06/' record
+stopped_by_hand long
+check "preempted with a grace time: queued again" called "scontrol requeue 17"
+check "preempted with a grace time: said" said 'stopped for another job at long/checkpoint_4\.h5: queued again'
+sed -i 's/PreemptTime=2026.*/PreemptTime=None/' record
 : >no_scancel
 SLURM_RESTART_COUNT=2 interrupted USR1 requeue.sbatch pile case.prm long
 check "without scancel: srun forwards SIGUSR1" called USR1
-check "without scancel: a checkpoint" test -s long/checkpoint_4.h5
+check "without scancel: a checkpoint" test -s long/checkpoint_5.h5
 check "without scancel: then the end" called KILL
 check "without scancel: queued again" called "scontrol requeue 17"
 rm no_scancel
