@@ -2,8 +2,9 @@
 #
 # The nodes n1 and n2 are namespaces of Linux: each has its host name, network, processes, mounts and slurmd of
 # its own, two cores, and its own /dev/shm and temporary folder. $work is on all hosts, as on a file system that
-# nodes share. The script, slurmctld and munged run on the host `head`. Nothing is left behind, however the
-# script ends: the kernel ends the processes of a namespace with its first one, and removes its network.
+# nodes share. The script, slurmctld and munged run on the host `head`. No process and no
+# network is left behind, however the script ends: the kernel ends the processes of a namespace with its first one. Its
+# folder stays only where the script itself gets SIGKILL.
 #
 # usage: SCRIPT MERGEL     as root, who may make namespaces. Where something is missing the test fails.
 #
@@ -16,7 +17,7 @@ fail() { echo "FAILED: $*"; exit 1; }
 require_cluster()
 {
   local missing=() program
-  for program in pgrep munged slurmctld slurmd sbatch srun mpirun ip unshare nsenter; do
+  for program in pgrep munged slurmctld slurmd sbatch srun mpirun ip unshare setpriv; do
     command -v "$program" >/dev/null || missing+=("$program")
   done
   [ ${#missing[@]} -eq 0 ] || fail "the cluster needs ${missing[*]}: ./bootstrap cluster installs what is missing"
@@ -34,7 +35,7 @@ if [ -z "${MERGEL_CLUSTER:-}" ]; then
   child=''
   trap '[ -z "$child" ] || kill -KILL "$child" 2>/dev/null || true; wait; rm -rf "$MERGEL_CLUSTER"' EXIT
   trap 'exit 1' TERM INT HUP
-  unshare --mount --uts --ipc --net --pid --fork --kill-child --mount-proc "$0" "$@" &
+  setpriv --pdeathsig KILL unshare --mount --uts --ipc --net --pid --fork --kill-child --mount-proc "$0" "$@" &
   child=$! code=0
   wait "$child" || code=$?
   exit $code
