@@ -12,13 +12,14 @@ namespace mergel::apps {
 
 namespace {
 
-/// The options that a page names.
+/// The options that a page explains, each at the start of a line.
 std::string options_in(const std::string& page)
 {
-  static const std::regex option("--[a-z][a-z-]*");
+  static const std::regex option("(?:^|\n) +(--[a-z][a-z-]*)");
   std::set<std::string> names{"--help"};
   for (std::sregex_iterator at(page.begin(), page.end(), option), end; at != end; ++at)
-    names.insert(at->str());
+    names.insert((*at)[1].str());
+  if (names.contains("--template")) names.insert("--json"); // with --help
   return joined({names.begin(), names.end()}, " ");
 }
 

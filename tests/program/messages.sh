@@ -34,7 +34,7 @@ grep -q 'my rock/sample.h5' log || fail "the hint names no specimen: $(cat log)"
 
 ## long values
 digits=$(printf '1%.0s' {1..300})
-for value in "$digits mm" "0.$digits mm" "1e300 mm"; do
+for value in "$digits mm" "0.$digits MPa" "1e300 mm"; do
   [ "$(code_of "$mergel" pile "$pile" --set "Pile/diameter=$value" --output none)" = 1 ] || fail "a diameter of $value"
   [ "$(wc -c <log)" -lt 400 ] || fail "the message on a long value has $(wc -c <log) characters: $(cat log)"
 done
@@ -88,6 +88,4 @@ done
 [ "$(code_of "$mergel" check "$pile" --set "Specimen/porosity=0.9999")" = 1 ] || fail "no particles: $(cat log)"
 [ ! -e results ] || fail "mergel check has written results"
 
-## an estimate is near what the run has
-# near FOLDER WORD FACTOR: of the line in `log`, against a number of its summary.
 echo "messages: plain, short, and to be typed as they are"
