@@ -209,7 +209,7 @@ const dem::LoadingStage& resumed(const std::vector<dem::LoadingStage>& stages)
 bool loads_on(const std::string& text, const LoadingStage& stage,
               const std::vector<LoadingStage>& before)
 {
-  if (!text.starts_with("unload") || before.empty()) return false;
+  if (stage.returns || !text.starts_with("unload") || before.empty()) return false;
   const LoadingStage& last = before.back();
   if (last.returns || last.quantity != stage.quantity) return false;
   double start = 0.0; // of the last stage; strains of each count from its own
