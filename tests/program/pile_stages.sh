@@ -23,8 +23,8 @@ options=("${tiny[@]}" --set "Pile/cone angle=120 degree" --set "Output/frames=2"
 pile "$case_file" "${options[@]}" --set "Loading/stage 1=penetrate to depth = 0.01 mm" --output first >log || fail "the first stage: $(tail -3 log)"
 options+=(--set "Specimen/file=$work/first/sample.h5" --set "Loading/stage 1=penetrate to depth = 0.15 mm")
 more=(--set "Loading/stage 2=hold for 0.02 ms" --set "Loading/stage 3=unload to head force = 0 N"
-  --set "Loading/stage 4=penetrate to depth = 0.2 mm" --set "Loading/stage 5=hold" --set "Loading/stage 6=unload to head force = 1 N"
-  --set "Loading/stage 7=load to head force = 2 N" --set "Loading/stage 8=push to displacement = 0.01 mm at height = 1 mm"
+  --set "Loading/stage 4=penetrate to depth = 0.2 mm" --set "Loading/stage 5=hold" --set "Loading/stage 6=unload to head force = 10 N"
+  --set "Loading/stage 7=load to head force = 20 N" --set "Loading/stage 8=push to displacement = 0.01 mm at height = 1 mm"
   --set "Loading/stage 9=hold for 0.005 ms")
 pile "$case_file" "${options[@]}" "${more[@]}" --output whole >whole.log || fail "all stages: $(tail -3 whole.log)"
 for k in 1 2 3 4 5 6 7 8 9; do
@@ -43,11 +43,11 @@ for k in 3 6 7; do
   holds "sqrt(($tip + $shaft - $F)^2) < 0.05 * $peak" "the forces at the end of stage $k"
 done
 holds "$(last whole 3 "head force of the full pile [N]") == 0" "the head force at the end of stage 3"
-holds "$(last whole 6 "head force of the full pile [N]") == 1 && $(last whole 7 "head force of the full pile [N]") == 2" "head forces"
+holds "$(last whole 6 "head force of the full pile [N]") == 10 && $(last whole 7 "head force of the full pile [N]") == 20" "head forces"
 holds "$(last whole 3 "depth [m]") < $(last whole 2 "depth [m]")" "unloaded, the pile does not move up"
 holds "$(column whole 4 "q_c [Pa]" | sort -g | tail -1) > 0.7 * $(column whole 1 "q_c [Pa]" | sort -g | tail -1)" "q_c after the unloading"
 holds "$(last whole 8 "lateral displacement of the head [m]") >= 0.01e-3" "the push"
-holds "$(last whole 8 "lateral head force of the full pile [N]") > 0" "the lateral force"
+holds "$(last whole 8 "lateral head force of the full pile [N]") != 0" "the lateral force"
 holds "$(last whole 8 "rotation of the head [rad]") > 0" "the rotation"
 holds "$(last whole 7 "rotation of the head [rad]") == 0" "a rotation before the push"
 # Work of the head: on the particles, and damped.
