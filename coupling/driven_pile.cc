@@ -126,12 +126,14 @@ void DrivenPile::step(dem::RigidWall& wall, const HeadTarget& target, double dt_
     energy_.wall_work += work;
     energy_.applied_work -= work;
     wall.v = Vec3(0.0, 0.0, target.v_z);
+    wall.omega.setZero(); // after a push it leans, and turns no more
     wall.x.z() += dt * wall.v.z();
     return;
   }
   kick_z(f.z(), target.force, dt_kick);
   if (control_ == HeadControl::force) {
     wall.v = Vec3(0.0, 0.0, v_z_);
+    wall.omega.setZero();
     wall.x.z() += dt * wall.v.z();
     return;
   }

@@ -67,10 +67,10 @@ void relax(CoupledSystem& coupled, const Phase& phase)
     now = coupled.unbalanced();
     first = std::max(first, now);
     if (coupled.assembly.comm.global_sum(coupled.assembly.losses.broken) > 0)
-      throw Unstable(
-          "a bond broke before equilibrium (" + shown(now) +
-          "): the specimen is too weak for its own weight, or was made under pressure" +
-          hint_of(coupled.step_spec));
+      throw Unstable("a bond broke before equilibrium (" + shown(now) +
+                     "): the specimen is too weak for its own weight and the surcharge, or "
+                     "was made under pressure" +
+                     hint_of(coupled.step_spec));
     if (now < ratio) {
       if (phase.report.done)
         phase.report.done(shown(now) + ", " + std::to_string(n) + " steps");

@@ -40,9 +40,11 @@ std::string line_of(const CaseFile::Description& key)
 {
   const std::string set = "set " + key.name + " =";
   const std::string unit = key.unit == "-" ? "" : "   # with its unit, such as " + key.unit;
-  const bool is_given = key.exists_by_default && (key.is_required || !key.standard.empty());
+  // Required as long as the template is what it is: nothing else in it takes its place.
+  const bool is_required = key.is_required || key.rule.starts_with("required");
+  const bool is_given = key.exists_by_default && (is_required || !key.standard.empty());
   if (!is_given && !key.rule.empty()) return "# " + set + "   # default: " + key.rule;
-  const std::string value = key.is_required
+  const std::string value = is_required
                                 ? " " + std::string(is_given ? to_be_given : "...") + unit
                             : key.standard.empty() ? ""
                                                    : " " + key.standard;

@@ -106,7 +106,7 @@ std::vector<CaseFile::Description> CaseFile::descriptions() const
 namespace {
 
 /// "stage " of "stage 12"; "" of a name without a number at its end.
-std::string numbered(const std::string& name)
+std::string stem_of(const std::string& name)
 {
   const auto last = name.find_last_not_of("0123456789");
   if (last == std::string::npos || last + 1 == name.size() || name[last] != ' ') return "";
@@ -116,8 +116,8 @@ std::string numbered(const std::string& name)
 /// Whether two keys differ in their number alone.
 bool are_alike(const CaseFile::Description& a, const CaseFile::Description& b)
 {
-  return a.section == b.section && !numbered(a.name).empty() &&
-         numbered(a.name) == numbered(b.name) && a.unit == b.unit &&
+  return a.section == b.section && !stem_of(a.name).empty() &&
+         stem_of(a.name) == stem_of(b.name) && a.unit == b.unit &&
          a.standard == b.standard && a.allowed == b.allowed && a.sentence == b.sentence &&
          a.condition == b.condition && a.is_required == b.is_required;
 }
@@ -133,7 +133,7 @@ std::vector<CaseFile::Description> CaseFile::folded_descriptions() const
     while (end < keys.size() && are_alike(keys[k], keys[end])) ++end;
     result.push_back(keys[k]);
     if (end > k + 1) {
-      const std::string stem = numbered(keys[k].name);
+      const std::string stem = stem_of(keys[k].name);
       result.back().name = stem + "N";
       result.back().sentence += " N = " + keys[k].name.substr(stem.size()) + " to " +
                                 keys[end - 1].name.substr(stem.size()) + ".";

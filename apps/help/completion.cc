@@ -52,11 +52,11 @@ _mergel()
   local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} job=${COMP_WORDS[1]}
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    _mergel_reply $_mergel_jobs help version completion --help --version
+    _mergel_reply $_mergel_jobs help man version completion --help --version
     return
   fi
   case $job in
-    help) _mergel_reply $_mergel_jobs; return ;;
+    help | man) _mergel_reply $_mergel_jobs; return ;;
     completion) _mergel_reply bash; return ;;
   esac
   case $before in

@@ -140,6 +140,7 @@ void Installation::run_stage(const std::function<void()>& after_step)
 void Installation::end_stage()
 {
   n_at_capacity_ += stage_run_.has_capacity();
+  if (stage_run_.stage().kind == PileStage::Kind::penetrate) push_.tip = travelled();
   ++position_.n_done;
   position_.is_under_way = false;
 }

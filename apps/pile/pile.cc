@@ -24,7 +24,10 @@ public:
   Remarks unusual() const override { return apps::unusual(case_); }
   std::vector<std::filesystem::path> inputs() const override
   {
-    return {case_.assembly.sample, case_.assembly.table};
+    std::vector<std::filesystem::path> files{case_.assembly.sample, case_.assembly.table};
+    if (!case_.assembly.elasticity_from.empty())
+      files.push_back(case_.assembly.elasticity_from / "summary.json");
+    return files;
   }
   std::vector<std::string> free_keys() const override
   {
@@ -37,7 +40,8 @@ public:
             "Pile/mass",
             "Output/record every",
             "Output/frames",
-            "Output/averaging length"};
+            "Output/averaging length",
+            "Far field/elasticity from"};
   }
 
   void check_restart(const CaseFile& file, const Restart& restart) const override

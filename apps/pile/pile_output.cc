@@ -120,7 +120,7 @@ std::string PileOutput::check(const std::filesystem::path& folder, const dem::St
 void PileOutput::record(const PileRecord& r, const ShaftRings& rings,
                         const std::vector<dem::RingForce>& forces)
 {
-  shaft_.add(r.tip_depth, r.q_c, rings, forces);
+  shaft_.add(r.stage, r.tip_depth, r.q_c, rings, forces);
   const dem::EnergyBalance& e = r.balance;
   history_.add({r.time,
                 r.depth,

@@ -4,6 +4,7 @@
 #include "apps/case/words.h"
 #include "dem/error.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>

@@ -28,7 +28,7 @@ ShaftStress::ShaftStress(const PileCase& c)
 ShaftStress::ShaftStress(const PileCase& c, const dem::State& state) : ShaftStress(c)
 {
   if (!state.has(name_in_state)) return; // older checkpoints
-  // Height of the rings, then of each record: depth, q_c, number of rings, three forces each.
+  // Height of the rings, the stage, then of each record: depth, q_c, number of rings, three forces each.
   const auto& all = state.get<double>(name_in_state);
   std::size_t at = 0;
   const auto next = [&] {
@@ -37,6 +37,7 @@ ShaftStress::ShaftStress(const PileCase& c, const dem::State& state) : ShaftStre
   };
   if (all.empty()) return;
   rings_.height = next();
+  stage_ = static_cast<std::uint64_t>(std::clamp(next(), 0.0, 1e9));
   while (at < all.size()) {
     Record r;
     r.tip_depth = next();
@@ -60,7 +61,7 @@ void ShaftStress::save(dem::State& state, const ShaftStress* stress)
 {
   std::vector<double> all;
   if (stress && !stress->records_.empty()) {
-    all.push_back(stress->rings_.height);
+    all = {stress->rings_.height, static_cast<double>(stress->stage_)};
     for (const Record& r : stress->records_) {
       all.insert(all.end(), {r.tip_depth, r.q_c, static_cast<double>(r.forces.size())});
       for (const dem::RingForce& f : r.forces)
@@ -70,12 +71,14 @@ void ShaftStress::save(dem::State& state, const ShaftStress* stress)
   state.add_common(name_in_state, std::move(all));
 }
 
-void ShaftStress::add(double tip_depth, double q_c, const ShaftRings& rings,
-                      const std::vector<dem::RingForce>& forces)
+void ShaftStress::add(std::uint64_t stage, double tip_depth, double q_c,
+                      const ShaftRings& rings, const std::vector<dem::RingForce>& forces)
 {
+  if (stage != stage_) records_.clear();
+  stage_ = stage;
   rings_ = rings;
   records_.push_back({tip_depth, q_c, forces});
-  while (records_.front().tip_depth <= tip_depth - travel_) records_.pop_front();
+  while (std::abs(records_.front().tip_depth - tip_depth) >= travel_) records_.pop_front();
 }
 
 std::vector<RingStress> ShaftStress::mean() const

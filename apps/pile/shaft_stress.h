@@ -28,7 +28,7 @@ struct RingStress {
   double shear = 0.0;  ///< upwards on the pile [Pa]
 };
 
-/// Ring forces at the records of the last half diameter of travel.
+/// Ring forces at the records of the last half diameter of travel of a loading stage.
 class ShaftStress {
 public:
   explicit ShaftStress(const PileCase& c);
@@ -37,8 +37,9 @@ public:
   /// @param stress null on all ranks but the first
   static void save(dem::State& state, const ShaftStress* stress);
 
+  /// @param stage number of the loading stage: those before it are left out
   /// @param tip_depth [m]; @param q_c [Pa]
-  void add(double tip_depth, double q_c, const ShaftRings& rings,
+  void add(std::uint64_t stage, double tip_depth, double q_c, const ShaftRings& rings,
            const std::vector<dem::RingForce>& forces);
 
   /// Of the rings that are whole below the surface, from the shoulder upwards; each is the mean
@@ -54,6 +55,7 @@ private:
   };
 
   double R_, share_, tip_height_, travel_; // share_ of the pile that is modelled
+  std::uint64_t stage_ = 0;
   ShaftRings rings_;
   std::deque<Record> records_;
 };

@@ -222,7 +222,8 @@ std::string StageRun::outcome() const
   out.precision(4);
   out << "in " << 1e3 * time_ << " ms, " << 1e3 * (tip_depth() - tip_) << " mm deeper";
   if (has_capacity_)
-    out << "; the bearing capacity: at `Loading/largest settlement` the head force was "
+    out << "; the bearing capacity: at `Loading/largest settlement` the particles resisted "
+           "with "
         << head_.head_force(pile()) / case_.modelled_share() << " N";
   return out.str();
 }

@@ -1,4 +1,4 @@
-/// A grid over the vertical section y = 0 of a half cylinder. Its cells are quarter rings about
+/// A grid over the vertical section y = 0 of the half y >= 0 of a cylinder. Its cells are quarter rings about
 /// the z axis: those of the quarter x < 0 to the left of the axis, those of x > 0 to the right.
 #pragma once
 
@@ -17,7 +17,7 @@ Mat3 section_axes(const Vec3& x, bool is_left);
 struct SectionGrid {
   double h = 0.0;     ///< height and width of a cell [m]
   double z_low = 0.0; ///< of the lowest cells [m]
-  double depth = 0.0; ///< of the half cylinder, which ends inside the lowest cells [m]
+  double depth = 0.0; ///< of the cylinder, which ends inside the lowest cells [m]
   int n_r = 0;        ///< cells from the axis outwards, on each side
   int n_z = 0;        ///< cells from the lowest upwards
 

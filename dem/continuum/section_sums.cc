@@ -109,6 +109,7 @@ void SectionSums::add(const LoadedBranch& b, const Vec3& x)
   std::vector<double> cuts{0.0, 1.0};
   add_planes(cuts, x.z(), b.r.z(), grid_.z_low, grid_.h);
   add_planes(cuts, x.x(), b.r.x(), 0.0, std::abs(x.x()) + std::abs(b.r.x()) + grid_.h);
+  add_planes(cuts, x.y(), b.r.y(), 0.0, std::abs(x.y()) + std::abs(b.r.y()) + grid_.h);
   add_cylinders(cuts, x, b.r, grid_.h);
   std::erase_if(cuts, [](double s) { return !(s >= 0.0 && s <= 1.0); });
   std::sort(cuts.begin(), cuts.end());

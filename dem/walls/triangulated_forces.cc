@@ -359,8 +359,10 @@ private:
     const End<Lanes> anchor{triples([&](int l) { return x[l]; }), Lanes{},
                             triples([&](int l) { return v[l]; }), b.S, Triple<Lanes>{}};
     const PairMotion<Lanes> k = pair_motion(b, anchor, step_.dt, 1.0);
-    BondShape<Lanes> shape = bond_shape(law_, b.R, 1.0 / b.R);
-    if (wall.is_smooth) shape.k_s = Lanes{};
+    const BondShape<Lanes> shape = bond_shape(law_, b.R, 1.0 / b.R);
+    // The return of a bond that yields divides by its stiffness: that of a smooth wall stays,
+    // and the shear does not grow.
+    const Lanes k_s = wall.is_smooth ? Lanes{} : shape.k_s;
     const Triple<Lanes> history = triples([&](int l) {
       const WallBond& bond = *bond_[l];
       return Row{bond.gap_0, bond.state.u_p, bond.state.intact, 0.0};
@@ -368,7 +370,7 @@ private:
     const Triple<Lanes> V =
         rotated_with_contact(triples([&](int l) { return row_of(bond_[l]->V); }), k);
     EffectiveLoads<Lanes> load{shape.k_n * (k.gap - history.x - history.y),
-                               V + k.du_s * shape.k_s, Triple<Lanes>{}};
+                               V + k.du_s * k_s, Triple<Lanes>{}};
     Lanes intact = history.z;
     if (wall.bonds_yield)
       for (int l = 0; l < count; ++l) {

@@ -1,5 +1,6 @@
 #include "apps/view/pile/chart.h"
 
+#include "apps/case/units.h"
 #include "apps/view/curve.h"
 
 #include <algorithm>
@@ -90,7 +91,13 @@ PlotQuantity named(const char* name, const char* words)
 void add_head_force(dem::Table& history)
 {
   const char *tip = "tip force of the full pile", *shaft = "shaft force of the full pile";
-  if (history.has("head force") || !history.has(tip) || !history.has(shaft)) return;
+  if (history.has("head force")) return;
+  if (history.has("head force of the full pile")) {
+    history.columns.push_back(
+        {"head force", "N", history.column("head force of the full pile", "N")});
+    return;
+  }
+  if (!history.has(tip) || !history.has(shaft)) return;
   dem::TableColumn head{"head force", "N", history.column(tip, "N")};
   const auto& more = history.column(shaft, "N");
   for (std::size_t k = 0; k < head.values.size(); ++k) head.values[k] += more[k];
