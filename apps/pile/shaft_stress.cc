@@ -28,7 +28,8 @@ ShaftStress::ShaftStress(const PileCase& c)
 ShaftStress::ShaftStress(const PileCase& c, const dem::State& state) : ShaftStress(c)
 {
   if (!state.has(name_in_state)) return; // older checkpoints
-  // Height of the rings, the stage, then of each record: depth, q_c, number of rings, three forces each.
+  // Height of the rings, the stage; then of each record depth, q_c, number of rings, and three
+  // forces of each.
   const auto& all = state.get<double>(name_in_state);
   std::size_t at = 0;
   const auto next = [&] {

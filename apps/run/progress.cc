@@ -40,7 +40,8 @@ ProgressOutput ProgressOutput::standard()
   output.out = &std::cout;
   // mpirun gives its ranks a terminal without a width, and what it forwards may go to a file.
   winsize window{};
-  const bool has_width = ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1;
+  const bool has_width =
+      ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1;
   output.is_terminal = isatty(STDOUT_FILENO) != 0 && has_width;
   if (has_width) output.columns = window.ws_col - 1u;
   output.clock = [] {

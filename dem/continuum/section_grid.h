@@ -1,5 +1,6 @@
-/// A grid over the vertical section y = 0 of the half y >= 0 of a cylinder. Its cells are quarter rings about
-/// the z axis: those of the quarter x < 0 to the left of the axis, those of x > 0 to the right.
+/// A grid over the vertical section y = 0 of a cylinder, seen from its half y >= 0. Its cells are
+/// quarter rings about the z axis: those of the quarter x < 0 to the left of the axis, those of
+/// x > 0 to the right.
 #pragma once
 
 #include "dem/notation.h"
