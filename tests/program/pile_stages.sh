@@ -77,6 +77,16 @@ same a
 # A finished run is taken further, with the bits of a run that had all stages; what is done may not change.
 three=("${more[@]:0:4}")
 pile "$case_file" "${options[@]}" "${three[@]}" --output b >log || fail "three stages: $(tail -3 log)"
+# Overlaps: a limit that is passed stops the run, and a restart with another one goes on.
+overlap=$(awk -F': ' '/"largest overlap/ { print $2 + 0 }' b/summary.json)
+holds "$overlap > 0 && $overlap <= 0.9" "the largest overlap"
+limit=$(awk "BEGIN { print 0.8 * $overlap }")
+code=$(code_of pile "$case_file" "${options[@]}" "${three[@]}" --set "Motion/largest overlap=$limit" --set "Output/checkpoint every=100 steps" --output d)
+[ "$code" -eq 2 ] && grep -q 'overlap by .* of the smaller radius (at most .*`Motion/largest overlap`' log || fail "the limit: exit code $code: $(tail -3 log)"
+[ -s d/failed.json ] || fail "no failed.json"
+pile --restart d --set "Motion/largest overlap=0.9" >log || fail "with another limit: $(tail -3 log)"
+cmp b/history.csv d/history.csv || fail "d: the history differs"
+
 pile --restart b >log && grep -q 'all its loading stages are done. .*`Loading/stage 4`' log || fail "nothing to do: $(cat log)"
 [ "$(code_of pile --restart b --set "Loading/stage 3=unload to head force = 1 N")" -eq 1 ] &&
   grep -q 'Loading/stage 3 = .*: was `unload to head force = 0 N`, which is done' log || fail "a done stage changed: $(cat log)"
@@ -91,13 +101,4 @@ same b
   fail "an unloading to more: $(tail -3 log)"
 pile --restart c --set "Loading/stage 2=hold for 0.001 ms" >log || fail "with another stage: $(tail -3 log)"
 
-# Overlaps: a limit that is passed stops the run, and a restart with another one goes on.
-overlap=$(awk -F': ' '/"largest overlap/ { print $2 + 0 }' whole/summary.json)
-holds "$overlap > 0 && $overlap <= 0.9" "the largest overlap"
-limit=$(awk "BEGIN { print 0.8 * $overlap }")
-code=$(code_of pile "$case_file" "${options[@]}" "${more[@]}" --set "Motion/largest overlap=$limit" --set "Output/checkpoint every=100 steps" --output d)
-[ "$code" -eq 2 ] && grep -q 'overlap by .* of the smaller radius (at most .*`Motion/largest overlap`' log || fail "the limit: exit code $code: $(tail -3 log)"
-[ -s d/failed.json ] || fail "no failed.json"
-pile --restart d --set "Motion/largest overlap=0.9" >log || fail "with another limit: $(tail -3 log)"
-same d
 echo "pile_stages: all checks hold; q_c after the unloading $(column whole 4 "q_c [Pa]" | sort -g | tail -1) Pa, before $(column whole 1 "q_c [Pa]" | sort -g | tail -1) Pa"

@@ -69,7 +69,6 @@ TEST_CASE("The power of a wall that spins is that of its forces at their points"
     p.state.push_back(sphere(at, 0.2e-3));
     p.id.push_back(k);
   }
-  p.n_owned = p.state.size();
   p.load.resize(p.state.size());
   p.n_bonds.resize(p.state.size());
   const PairMaterials material{unbreakable_bond(), contact(1e9, 2.4, 0.2, 0.0)};

@@ -56,7 +56,7 @@ TEST_CASE("A periodic box has no surface for a surcharge", "[unit][dem]")
 {
   Particles p;
   p.add(sphere(Vec3::Zero(), 1.0));
-  CHECK_THROWS_AS(surface_load(p, PeriodicBox{{3.0, 3.0, 3.0}}, 1.0), InputError);
+  CHECK_THROWS_AS(surface_load(p, PeriodicBox{{3.0, 3.0, 3.0}}, 1.0), mergel::InputError);
 }
 
 TEST_CASE("A constant force accelerates a particle by F/m, and its work is F u",
