@@ -193,7 +193,7 @@ TEST_CASE("The multigrid solution is the direct one", "[verification][fem]")
   const FarFieldGeometry g{12.5e-3, 40e-3, 5e-3, 12e-3, 2e-3, 1.4};
   dealii::Triangulation<3> mesh;
   make_far_field_mesh(g, layers(g), mesh);
-  const ElasticSolid solid(mesh, {{1.1e9, 0.14}, 1227.0, Vec3(0.0, 0.0, -9.81), {}},
+  const ElasticSolid solid(mesh, {{1.1e9, 0.14}, 1227.0, Vec3(0.0, 0.0, -9.81), {}, {}},
                            {{boundary::bottom, Support::fixed},
                             {boundary::symmetry, Support::roller},
                             {boundary::outer, Support::roller}});
@@ -206,7 +206,8 @@ TEST_CASE("The multigrid solution is the direct one", "[verification][fem]")
   CHECK(iterated.residual < 2e-12);
 
   // Without supports there is no static solution, and the solver throws.
-  const ElasticSolid loose(mesh, {{1.1e9, 0.14}, 1227.0, Vec3(0.0, 0.0, -9.81), {}}, {});
+  const ElasticSolid loose(mesh, {{1.1e9, 0.14}, 1227.0, Vec3(0.0, 0.0, -9.81), {}, {}},
+                           {});
   CHECK_THROWS_AS(solve_static(loose.discrete(), loose.discrete().f_gravity),
                   std::runtime_error);
 }

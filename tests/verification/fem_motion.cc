@@ -44,7 +44,7 @@ TEST_CASE("A constrained bar oscillates at the P wave speed sqrt((lambda + 2 G)/
     const double h = L / n;
     dealii::Triangulation<3> mesh;
     make_box({L, h, h}, {n, 1, 1}, mesh);
-    const ElasticSolid bar(mesh, {e, rho, Vec3::Zero(), {}},
+    const ElasticSolid bar(mesh, {e, rho, Vec3::Zero(), {}, {}},
                            {{x_low, Support::fixed},
                             {y_low, Support::roller},
                             {y_high, Support::roller},
@@ -85,7 +85,7 @@ TEST_CASE("Local damping slows a free fall to g (1 - alpha) t", "[verification][
   dealii::Triangulation<3> mesh;
   make_box({1.0, 1.0, 1.0}, {2, 2, 2}, mesh);
   const double g = 9.81, alpha = 0.7, dt = 1e-5;
-  const ElasticSolid block(mesh, {{1e9, 0.2}, 1000.0, Vec3(0.0, 0.0, -g), {}}, {});
+  const ElasticSolid block(mesh, {{1e9, 0.2}, 1000.0, Vec3(0.0, 0.0, -g), {}, {}}, {});
   Leapfrog motion(block.discrete(), alpha, {});
   const int n = 100;
   for (int i = 0; i < n; ++i) motion.step(dt, {});
@@ -100,7 +100,7 @@ TEST_CASE("Damped motion of a loaded rod ends at F L/(E A)", "[verification][fem
   const double L = 1.0, side = 0.2, F = 1000.0, E = 1.1e9;
   dealii::Triangulation<3> mesh;
   make_box({L, side, side}, {5, 1, 1}, mesh);
-  const ElasticSolid rod(mesh, {{E, 0.0}, 1227.0, Vec3::Zero(), {}},
+  const ElasticSolid rod(mesh, {{E, 0.0}, 1227.0, Vec3::Zero(), {}, {}},
                          {{x_low, Support::fixed}});
   const auto loaded = rod.nodes_on(x_high);
   const auto f = pick(traction_forces(rod, x_high,
@@ -127,7 +127,7 @@ TEST_CASE("The energy is balanced to round-off at a constant time step",
     sigma[0][0] = 1e4;
     return sigma;
   };
-  const ElasticSolid block(mesh, {{1e9, 0.2}, 1000.0, Vec3(0.0, 0.0, -9.81), stress},
+  const ElasticSolid block(mesh, {{1e9, 0.2}, 1000.0, Vec3(0.0, 0.0, -9.81), stress, {}},
                            {{z_low, Support::fixed}});
   const auto loaded = block.nodes_on(z_high);
   const double dt = 0.5 * 2.0 / largest_frequency(block.discrete());
@@ -172,7 +172,7 @@ struct LoadedBlock {
   {
     make_box({1.0, 1.0, 1.0}, {3, 3, 3}, mesh);
     solid = std::make_unique<ElasticSolid>(
-        mesh, SolidProperties{{1e9, 0.2}, 1000.0, Vec3::Zero(), {}}, supports);
+        mesh, SolidProperties{{1e9, 0.2}, 1000.0, Vec3::Zero(), {}, {}}, supports);
     loaded = solid->nodes_on(z_high);
     omega = largest_frequency(solid->discrete());
   }
@@ -227,7 +227,7 @@ TEST_CASE("No impulse is lost where the step changes in a window of the subcycle
   dealii::Triangulation<3> mesh;
   make_box({1.0, 1.0, 1.0}, {2, 2, 2}, mesh);
   const double g = 9.81;
-  const ElasticSolid block(mesh, {{1e9, 0.2}, 1000.0, Vec3(0.0, 0.0, -g), {}}, {});
+  const ElasticSolid block(mesh, {{1e9, 0.2}, 1000.0, Vec3(0.0, 0.0, -g), {}, {}}, {});
   Leapfrog motion(block.discrete(), 0.0, block.nodes_on(z_high));
   motion.set_subcycle(3);
   const double dt = 0.1 / largest_frequency(block.discrete());
@@ -282,7 +282,7 @@ TEST_CASE("Damped motion ends at the static solution", "[verification][fem]")
 {
   dealii::Triangulation<3> mesh;
   make_box({1.0, 0.5, 0.5}, {4, 2, 2}, mesh);
-  const ElasticSolid block(mesh, {{1e9, 0.25}, 1000.0, Vec3(0.0, 0.0, -9.81), {}},
+  const ElasticSolid block(mesh, {{1e9, 0.25}, 1000.0, Vec3(0.0, 0.0, -9.81), {}, {}},
                            {{x_low, Support::fixed}, {y_low, Support::roller}});
   const auto loaded = block.nodes_on(x_high);
   const NodalField load = traction_forces(block, x_high, [](const Vec3& x, const Vec3&) {
@@ -306,7 +306,7 @@ TEST_CASE("Leapfrog is stable just below 2/omega_max and not just above",
 {
   dealii::Triangulation<3> mesh;
   make_box({1.0, 1.0, 0.5}, {3, 3, 2}, mesh);
-  const ElasticSolid block(mesh, {{1e9, 0.2}, 1000.0, Vec3::Zero(), {}},
+  const ElasticSolid block(mesh, {{1e9, 0.2}, 1000.0, Vec3::Zero(), {}, {}},
                            {{z_low, Support::fixed}});
   const double limit = 2.0 / largest_frequency(block.discrete());
   const auto growth = [&](double share) {
@@ -330,7 +330,7 @@ TEST_CASE("A state restored in a new object continues with the same bits",
 {
   dealii::Triangulation<3> mesh;
   make_box({1.0, 1.0, 1.0}, {2, 2, 2}, mesh);
-  const ElasticSolid block(mesh, {{1e9, 0.2}, 1000.0, Vec3(0.0, 0.0, -9.81), {}},
+  const ElasticSolid block(mesh, {{1e9, 0.2}, 1000.0, Vec3(0.0, 0.0, -9.81), {}, {}},
                            {{z_low, Support::fixed}});
   const double dt = 0.3 * 2.0 / largest_frequency(block.discrete());
   Leapfrog one(block.discrete(), 0.7, {}), other(block.discrete(), 0.7, {});

@@ -23,7 +23,7 @@ void make_distorted_cube(dealii::Triangulation<3>& mesh)
   dealii::GridTools::distort_random(0.2, mesh, true);
 }
 
-const SolidProperties rock{{1.1e9, 0.14}, 1227.0, Vec3::Zero(), {}};
+const SolidProperties rock{{1.1e9, 0.14}, 1227.0, Vec3::Zero(), {}, {}};
 
 double largest(const NodalField& field)
 {
@@ -96,7 +96,7 @@ TEST_CASE("A rod with nu = 0 under an end load F stretches by F L/(E A)",
   dealii::Triangulation<3> mesh;
   make_box({L, side, side}, {10, 2, 2}, mesh);
   const double E = 1.1e9;
-  const ElasticSolid rod(mesh, {{E, 0.0}, 1227.0, Vec3::Zero(), {}},
+  const ElasticSolid rod(mesh, {{E, 0.0}, 1227.0, Vec3::Zero(), {}, {}},
                          {{x_low, Support::fixed}});
   const NodalField f = traction_forces(
       rod, x_high, [&](const Vec3&, const Vec3& n) { return Vec3(F / (side * side) * n); });
@@ -125,7 +125,7 @@ TEST_CASE("Lame's thick cylinder under inner pressure converges at second order"
           return dealii::Point<3>(r * std::cos(theta), r * std::sin(theta), x[2]);
         },
         mesh);
-    const ElasticSolid ring(mesh, {e, 1.0, Vec3::Zero(), {}},
+    const ElasticSolid ring(mesh, {e, 1.0, Vec3::Zero(), {}, {}},
                             {{y_low, Support::roller},
                              {y_high, Support::roller},
                              {z_low, Support::roller},
@@ -168,7 +168,7 @@ TEST_CASE("A column that settles between rollers has sigma_h = nu/(1-nu) sigma_v
   const double H = 2.0, g = 9.81, nu = 0.3, rho = 1227.0;
   dealii::Triangulation<3> mesh;
   make_box({0.3, 0.3, H}, {2, 2, 8}, mesh);
-  const ElasticSolid column(mesh, {{1.1e9, nu}, rho, Vec3(0.0, 0.0, -g), {}},
+  const ElasticSolid column(mesh, {{1.1e9, nu}, rho, Vec3(0.0, 0.0, -g), {}, {}},
                             {{x_low, Support::roller},
                              {x_high, Support::roller},
                              {y_low, Support::roller},
