@@ -137,7 +137,7 @@ for job in "" "${jobs[@]}"; do
   [ ! -s warnings ] || fail "man $job: $(head -3 warnings)"
   [ "$(wc -l <page.txt)" -gt 15 ] || fail "man $job has no text"
 done
-"$mergel" man pile | groff -man -Tutf8 | sed 's/\x1b\[[0-9;]*m//g' >page.txt
+"$mergel" man pile | groff -man -Tutf8 | sed 's/\x1b\[[0-9;]*m//g; s/.\x08//g' >page.txt
 for word in 'final depth' 'EXIT STATUS' '\-\-restart' 'SEE ALSO'; do grep -q -- "$word" page.txt || fail "man pile lacks $word"; done
 
 echo "front door: help, version, templates, completion and pages are as they should be"

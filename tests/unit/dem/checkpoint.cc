@@ -149,15 +149,15 @@ TEST_CASE("a file that is not a checkpoint is refused with the reason", "[unit][
   CHECK(refusal(file).find("is no checkpoint, or is truncated") == 0);
   write_sample(file, Sample{});
   CHECK(refusal(file).find("is no checkpoint, or is truncated") == 0);
-  write_state(file, "checkpoint", 3, State(0), Communicator());
+  write_state(file, "checkpoint", 4, State(0), Communicator());
   CHECK(refusal(file) ==
-        "has checkpoint format 3, newer than the 2 that this program reads; continue the "
+        "has checkpoint format 4, newer than the 3 that this program reads; continue the "
         "run with the mergel that wrote it, or begin it again");
   write_state(file, "checkpoint", 1, State(0), Communicator());
   CHECK(refusal(file) ==
-        "has checkpoint format 1, older than the 2 that this program reads; continue the "
+        "has checkpoint format 1, older than the 3 that this program reads; continue the "
         "run with the mergel that wrote it, or begin it again");
-  write_state(file, "checkpoint", 2, State(0), Communicator());
+  write_state(file, "checkpoint", 3, State(0), Communicator());
   CHECK(refusal(file).find("does not fit this program or case: its array label_") == 0);
 }
 

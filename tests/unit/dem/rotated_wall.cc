@@ -66,11 +66,8 @@ TEST_CASE("The power of a wall that spins is that of its forces at their points"
     const double phi = 0.157 * static_cast<double>(k), z = 2e-3 + 0.05e-3 * double(k);
     const double r = 0.7e-3 + 0.2e-3 - (k % 2 == 0 ? 0.02e-3 : -0.02e-3);
     const Vec3 at = wall.x + turn * Vec3(r * std::cos(phi), r * std::sin(phi), z);
-    p.state.push_back(sphere(at, 0.2e-3));
-    p.id.push_back(k);
+    p.add(sphere(at, 0.2e-3));
   }
-  p.load.resize(p.state.size());
-  p.n_bonds.resize(p.state.size());
   const PairMaterials material{unbreakable_bond(), contact(1e9, 2.4, 0.2, 0.0)};
   rebuild_wall(wall, material, p, 0.1e-3);
   PairLosses losses;
