@@ -110,11 +110,12 @@ void refuse_impossible(const CaseFile& file, const BondKeys& bond,
   const dem::BondLaw law = bond.chosen();
   const dem::ContactLaw far = contact.chosen();
   const double E = dem::section(law).E, strength = tensile_strength(law);
-  if (E < strength)
+  // A strength of some moduli is a bond that does not break, and meant so.
+  if (strength > impossible_ratio * E)
     file.refuse("Bond", "effective modulus",
-                "is below the tensile strength of the bond, " + in_mpa(strength) +
-                    ": it would stretch by more than its own length before it breaks. Are "
-                    "the units right? mPa is a thousandth of a pascal");
+                "is less than a millionth of the tensile strength of the bond, " +
+                    in_mpa(strength) +
+                    ". Are the units right? mPa is a thousandth of a pascal");
   refuse_other_rock(file, "Contact", modulus_key(far), dem::modulus(far), bond);
 }
 

@@ -66,7 +66,7 @@ TEST_CASE("A constant force accelerates a particle by F/m, and its work is F u",
   s.p.add(sphere(Vec3::Zero(), 1e-3));
   const Vec3 F(1e-3, 0.0, -2e-3);
   s.p.applied_force = {F};
-  const double dt = 5e-5;
+  const double dt = 4e-5;
   s.start(dt);
   for (int k = 0; k < 99; ++k) s.step(dt);
   const double t = 100 * dt;
