@@ -1,10 +1,12 @@
 #include "apps/pile/pile_profiles.h"
 
 #include "apps/run/restart.h"
+#include "dem/io/state/named_numbers.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace mergel::apps {
 
@@ -59,6 +61,33 @@ std::optional<dem::SectionAverage> rock_in(const dem::SectionSum& sum)
   return dem::SectionSums::average(sum);
 }
 
+RockState state_of(const std::optional<dem::SectionAverage>& rock)
+{
+  if (!rock) return {};
+  return {rock->void_ratio(), rock->p(), rock->q()};
+}
+
+/// Of a finished run that is started again the summary is that of its last frame.
+constexpr const char* findings = "output_profile_findings";
+template <class Findings>
+dem::NumbersOf<Findings> numbers_of(Findings& f)
+{
+  return {{"averaging length [m]", &f.averaging_length},
+          {"d50 [m]", &f.d_50},
+          {"radial stress at h = R [Pa]", &f.radial.a},
+          {"exponent of the radial stress [-]", &f.radial.b},
+          {"standard error of that exponent [-]", &f.radial.standard_error},
+          {"rings of that exponent [-]", &f.rings},
+          {"exponent by Chalk ICP-18 [-]", &f.icp18_exponent},
+          {"annulus [m]", &f.annulus},
+          {"void ratio beside the shaft [-]", &f.beside_shaft.void_ratio},
+          {"p beside the shaft [Pa]", &f.beside_shaft.p},
+          {"q beside the shaft [Pa]", &f.beside_shaft.q},
+          {"void ratio below the tip [-]", &f.below_tip.void_ratio},
+          {"p below the tip [Pa]", &f.below_tip.p},
+          {"q below the tip [Pa]", &f.below_tip.q}};
+}
+
 constexpr double farthest = 4.0; // from the axis and below the tip, in diameters
 constexpr double damage_of_crushed = 0.5;
 
@@ -79,6 +108,9 @@ PileProfiles::PileProfiles(const std::filesystem::path& folder, const PileCase& 
       tip_(continued(tip_table, folder, earlier, state)),
       radial_(continued(radial_table, folder, earlier, state))
 {
+  if (!state.has(findings)) return; // older checkpoints
+  dem::load_numbers(state, findings, numbers_of(found_));
+  found_.radial.n = static_cast<std::size_t>(std::clamp(found_.rings, 0.0, 1e6));
 }
 
 void PileProfiles::save(dem::State& state, const PileProfiles* profiles)
@@ -90,6 +122,8 @@ void PileProfiles::save(dem::State& state, const PileProfiles* profiles)
   add(shaft_table, profiles ? &profiles->shaft_ : nullptr);
   add(tip_table, profiles ? &profiles->tip_ : nullptr);
   add(radial_table, profiles ? &profiles->radial_ : nullptr);
+  const ProfileFindings found = profiles ? profiles->found_ : ProfileFindings{};
+  dem::save_numbers(state, findings, numbers_of(found));
 }
 
 std::string PileProfiles::check(const std::filesystem::path& folder,
@@ -135,16 +169,19 @@ void PileProfiles::add_shaft(const ProfileFrame& frame, const dem::SectionSums& 
                 rock->damage, rock->porosity, rock->void_ratio(), rock->p(), rock->q()});
   }
   found_.radial = dem::fit_power(h_over_R, radial);
+  if (!found_.radial.is_there()) found_.radial = {};
+  found_.rings = static_cast<double>(found_.radial.n);
   found_.icp18_exponent = dem::icp18_exponent(q_c);
   if (frame.depth >= R_)
     found_.beside_shaft =
-        rock_in(sums.between(R_, R_ + frame.averaging_length, z_shoulder, -R_));
+        state_of(rock_in(sums.between(R_, R_ + frame.averaging_length, z_shoulder, -R_)));
 }
 
 void PileProfiles::add_tip(const ProfileFrame& frame, const dem::SectionSums& sums)
 {
   const double w = frame.averaging_length;
-  found_.below_tip = rock_in(sums.between(0.0, R_, frame.z_tip - D_, frame.z_tip));
+  found_.below_tip =
+      state_of(rock_in(sums.between(0.0, R_, frame.z_tip - D_, frame.z_tip)));
   for (double below = 0.0; below < farthest * D_; below += w) {
     const auto rock =
         rock_in(sums.between(0.0, R_, frame.z_tip - below - w, frame.z_tip - below));
@@ -203,21 +240,21 @@ void PileProfiles::summarise(Summary& summary) const
     out << "radial stress on the shaft falls with (h/R)^" << f.radial.b << " +- "
         << f.radial.standard_error << " (" << f.radial.n << " rings)\n";
   }
-  if (f.annulus) {
-    summary.number("annulus of damage above 0.5 [m]", *f.annulus);
-    summary.number("annulus of damage above 0.5 over D_p [-]", *f.annulus / D_);
-    summary.number("annulus of damage above 0.5 over d50 [-]", *f.annulus / f.d_50);
-    out << "beside the shaft the damage is above 0.5 over " << 1e3 * *f.annulus << " mm ("
-        << *f.annulus / D_ << " D_p, " << *f.annulus / f.d_50 << " d50)\n";
+  if (f.annulus >= 0.0) {
+    summary.number("annulus of damage above 0.5 [m]", f.annulus);
+    summary.number("annulus of damage above 0.5 over D_p [-]", f.annulus / D_);
+    summary.number("annulus of damage above 0.5 over d50 [-]", f.annulus / f.d_50);
+    out << "beside the shaft the damage is above 0.5 over " << 1e3 * f.annulus << " mm ("
+        << f.annulus / D_ << " D_p, " << f.annulus / f.d_50 << " d50)\n";
   }
-  const auto add = [&](const char* where, const std::optional<dem::SectionAverage>& rock) {
-    if (!rock) return;
+  const auto add = [&](const char* where, const RockState& rock) {
+    if (!rock.is_there()) return;
     const std::string of = where;
-    summary.number("void ratio " + of + " [-]", rock->void_ratio());
-    summary.number("p " + of + " [Pa]", rock->p());
-    summary.number("q " + of + " [Pa]", rock->q());
-    out << of << ": e " << rock->void_ratio() << ", p " << 1e-6 * rock->p() << " MPa, q "
-        << 1e-6 * rock->q() << " MPa\n";
+    summary.number("void ratio " + of + " [-]", rock.void_ratio);
+    summary.number("p " + of + " [Pa]", rock.p);
+    summary.number("q " + of + " [Pa]", rock.q);
+    out << of << ": e " << rock.void_ratio << ", p " << 1e-6 * rock.p << " MPa, q "
+        << 1e-6 * rock.q << " MPa\n";
   };
   add("beside the shaft", f.beside_shaft);
   add("below the tip", f.below_tip);

@@ -8,7 +8,6 @@
 #include "dem/io/history.h"
 
 #include <filesystem>
-#include <optional>
 
 namespace mergel::apps {
 
@@ -21,13 +20,21 @@ struct ProfileFrame {
   double d_50 = 0.0;             ///< beside the pile [m]
 };
 
-/// What the profiles of the last frame show; a member is empty where there is no rock to show it.
+/// Mean state of the rock at a place, where there is some.
+struct RockState {
+  double void_ratio = 0.0; ///< [-]; 0: no rock
+  double p = 0.0, q = 0.0; ///< [Pa]
+  bool is_there() const { return void_ratio > 0.0; }
+};
+
+/// What the profiles of the last frame show.
 struct ProfileFindings {
   double averaging_length = 0.0, d_50 = 0.0; ///< [m]
   dem::PowerFit radial;                      ///< radial stress over h/R
+  double rings = 0.0;                        ///< of that fit, its n [-]
   double icp18_exponent = 0.0;               ///< [-]
-  std::optional<double> annulus;             ///< its thickness [m]
-  std::optional<dem::SectionAverage> beside_shaft, below_tip;
+  double annulus = -1.0;                     ///< its thickness [m]; below 0: no rock there
+  RockState beside_shaft, below_tip;
 };
 
 class PileProfiles {
