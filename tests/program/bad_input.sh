@@ -220,14 +220,14 @@ refuse "a pile in a periodic box" '--set Specimen/shape = periodic box: .*half c
   pile case.prm --output out --set "Specimen/shape=periodic box" --set "Specimen/edge x=5 mm" \
   --set "Specimen/edge y=5 mm" --set "Specimen/edge z=5 mm"
 edited case.prm '/set symmetry/d'
-refuse "faces of a full model" '--set Specimen/faces around the side=12: .*' \
+refuse "faces of a full model" '--set Specimen/faces around the side = 12: unknown key .*' \
   pile case.prm --output out --set "Specimen/shape=cylinder" --set "Specimen/faces around the side=12"
 refuse_set "a specimen of a pile under pressure" "${place}Specimen/packing = confined: .*use .unjammed." \
   "Specimen/packing=confined" "Specimen/target pressure=5 kPa"
 
 ## units and stages
 for job in pile check; do
-  refuse "a bond in mPa ($job)" '--set Bond/effective modulus = 22\.5 mPa: is less than a millionth of the tensile strength of the bond, 36 MPa: .*' \
+  refuse "a bond in mPa ($job)" '--set Bond/effective modulus = 22\.5 mPa: is less than a millionth of the tensile strength of the bond, 36 MPa\. .*' \
     $job good.prm --set "Bond/effective modulus=22.5 mPa"
   refuse "a contact in mPa ($job)" '--set Contact/effective modulus = 0\.63 mPa: is more than a million times off .*' \
     $job good.prm --set "Contact/effective modulus=0.63 mPa"

@@ -98,7 +98,7 @@ pile --restart e --set "Output/frames=1" >log || fail "a changed number of frame
 grep -q "cannot be used: e/checkpoint_999999999999.h5: is no checkpoint" log || fail "the damaged one is not reported: $(cat log)"
 grep -q 'Output/frames was 2, is now 1' log || fail "the change is not reported: $(cat log)"
 cmp whole/history.csv e/history.csv || fail "the history differs"
-[ "$(ls e/fields | wc -l)" -eq 8 ] || fail "frames: $(ls e/fields)"
+[ "$(ls e/fields | wc -l)" -eq 12 ] || fail "frames: $(ls e/fields)"
 grep -q 'set aside: e/checkpoint_999999999999.h5.aside' log && [ -e e/checkpoint_999999999999.h5.aside ] ||
   fail "the damaged one was not kept: $(ls e)"
 
