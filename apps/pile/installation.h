@@ -107,8 +107,7 @@ public:
 private:
   double next_frame() const ///< depth of the tip [m]
   {
-    return (case_.deepest() + case_.tip_height()) * static_cast<double>(n_frames_) /
-           case_.frames;
+    return case_.travel() * static_cast<double>(n_frames_) / case_.frames;
   }
   void begin_stage();
   void run_stage(const std::function<void()>& after_step);

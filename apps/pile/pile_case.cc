@@ -159,9 +159,10 @@ void declare(CaseFile& file, PileCase& c)
   const auto section = file.section("Output");
   file.derived("record every", c.record_every, "m", positive, "Pile/diameter/100",
                "Travel of the pile between two lines of history.csv.", "mm");
-  file.integer("frames", c.frames, at_least(1.0),
-               "Frames of all fields on the way to the largest depth, after the first; one "
-               "more at the end of each stage.");
+  file.integer(
+      "frames", c.frames, at_least(1.0),
+      "Frames of all fields during the first penetration, after the first, and with the "
+      "same spacing in later ones; one more at the end of each stage.");
   file.number("averaging length", c.averaging_length, from_to(1.0, 100.0),
               "Height and width of the rings over which the continuum fields are averaged, "
               "over d50 of the particles beside the pile.");

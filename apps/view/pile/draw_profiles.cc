@@ -20,7 +20,6 @@ namespace {
 
 constexpr double MPa = 1e-6;           // [1/Pa]
 constexpr double caption_units = 60.0; // height of the strip above the panels
-const Colour grey{0.45, 0.45, 0.45};
 
 /// The lines of a profile at one time, and where `choose` is given, with this number there.
 class Profile {
