@@ -20,7 +20,7 @@ fail() { echo "FAILED: $*"; exit 1; }
 for s in 0.5 1 2; do exact_run "run_$s" "$s" 1; done
 exact_run run_1_again 1 2
 mkdir pile
-printf 'time [s],depth [m],depth/D_p [-],q_c [Pa],bonds broken [-]\n0,0,0,0,0\n1e-3,1.4e-3,1,2e6,30\n2e-3,4e-3,2.9,8e6,90\n' >pile/history.csv
+printf 'time [s],depth [m],depth/D_p [-],tip depth [m],tip force of the full pile [N],shaft force of the full pile [N],q_c [Pa],bonds broken [-]\n0,0,0,1.2e-3,0,0,0,0\n1e-3,1.4e-3,1,2.6e-3,3,1,2e6,30\n2e-3,4e-3,2.9,5.2e-3,12,2,8e6,90\n' >pile/history.csv
 
 # "PICTURES" ARGUMENTS...: makes these and no others, each a PNG of 300 dpi whose chunks are whole
 makes() {
@@ -63,8 +63,8 @@ grep -q "other.csv: 1 of 3 values of 'axial strain' are missing" log || fail "$(
 makes compare.png run_1 --compare lab.csv --stage 1
 differs compare.png
 makes compare.png run_1 run_1_again --mean --compare lab.csv
-makes compare.png pile --compare cpt.csv
-makes compare.png pile --compare cpt.csv --label ours
+makes "compare.png load.png" pile --compare cpt.csv
+makes "compare.png load.png" pile --compare cpt.csv --label ours
 
 # WHAT ARGUMENTS...: refused in one line, exit code 1, no picture
 refused() {
