@@ -37,12 +37,7 @@ Plan plan_of(const CaseFile& file, const BrazilianCase& c)
 
 Plan plan_brazilian(const JobOptions& options)
 {
-  CaseFile file;
-  BrazilianCase c;
-  declare(file, c);
-  file.read(options.case_file, options.set);
-  complete(file, c);
-  return plan_of(file, c);
+  return plan_case<BrazilianCase>(options);
 }
 
 } // namespace mergel::apps

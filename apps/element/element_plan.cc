@@ -86,12 +86,7 @@ Plan plan_of(const CaseFile& file, const ElementCase& c)
 
 Plan plan_element(const JobOptions& options)
 {
-  CaseFile file;
-  ElementCase c;
-  declare(file, c);
-  file.read(options.case_file, options.set);
-  complete(file, c);
-  return plan_of(file, c);
+  return plan_case<ElementCase>(options);
 }
 
 } // namespace mergel::apps

@@ -108,12 +108,7 @@ Plan plan_of(const CaseFile& file, const PileCase& c)
 
 Plan plan_pile(const JobOptions& options)
 {
-  CaseFile file;
-  PileCase c;
-  declare(file, c);
-  file.read(options.case_file, options.set);
-  complete(file, c);
-  return plan_of(file, c);
+  return plan_case<PileCase>(options);
 }
 
 } // namespace mergel::apps

@@ -2,6 +2,7 @@
 /// rule, that mergel check prints.
 #pragma once
 
+#include "apps/case/case_file.h"
 #include "apps/case/unusual.h"
 #include "apps/run/jobs.h"
 
@@ -31,6 +32,19 @@ struct Plan {
 Plan plan_of_specimen(const CaseFile& file, const SpecimenKeys& k,
                       const dem::PairMaterials& material, double step_safety,
                       double inertia_factor);
+
+/// The plan of a case file: reads and checks it as the job does, then asks plan_of(file, case).
+/// @throws InputError naming file, line and key
+template <class Case>
+Plan plan_case(const JobOptions& options)
+{
+  CaseFile file;
+  Case c;
+  declare(file, c);
+  file.read(options.case_file, options.set);
+  complete(file, c);
+  return plan_of(file, c);
+}
 
 /// Memory of the first rank [byte], which needs most: program, then far field or particles
 /// (apps/batch/README.md, Sizing a run).

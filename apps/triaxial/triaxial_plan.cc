@@ -38,12 +38,7 @@ Plan plan_of(const CaseFile& file, const TriaxialCase& c)
 
 Plan plan_triaxial(const JobOptions& options)
 {
-  CaseFile file;
-  TriaxialCase c;
-  declare(file, c);
-  file.read(options.case_file, options.set);
-  complete(file, c);
-  return plan_of(file, c);
+  return plan_case<TriaxialCase>(options);
 }
 
 } // namespace mergel::apps
