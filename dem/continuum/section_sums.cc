@@ -56,7 +56,7 @@ std::vector<Vec3> unit_points()
 void add_planes(std::vector<double>& cuts, double x, double r, double low, double h)
 {
   if (r == 0.0) return; // parallel
-  const auto [from, to] = std::minmax((x - low) / h, (x + r - low) / h);
+  const auto [from, to] = std::minmax({(x - low) / h, (x + r - low) / h});
   for (double k = std::ceil(from); k <= to; k += 1.0) cuts.push_back((k * h + low - x) / r);
 }
 
