@@ -16,16 +16,20 @@ void BreakageCount::collect(const PileCase& c, dem::Assembly& assembly)
 {
   const dem::RigidWall& pile = assembly.rigid_walls.front();
   const double D = c.diameter, R = 0.5 * D, z_shoulder = pile.x.z() + c.tip_height();
-  std::size_t n_near = 0, n_above = 0;
+  std::size_t n_near = 0, n_above = 0, n_at_tip = 0, n_away = 0;
   for (const dem::Breakage& b : assembly.losses.breakages) {
     const dem::Vec3& x = b.x;
     const double r = std::hypot(x.x() - pile.x.x(), x.y() - pile.x.y());
     n_near += r <= 2.0 * D;
     n_above += x.z() > z_shoulder + D && r > R;
+    n_at_tip += x.z() < z_shoulder && (x - pile.x).norm() <= 2.0 * D;
+    n_away += x.z() > z_shoulder + R && r > R + 0.5 * D && x.z() < -D;
   }
   all += assembly.comm.global_sum(assembly.losses.breakages.size());
   near += assembly.comm.global_sum(n_near);
   above += assembly.comm.global_sum(n_above);
+  at_tip += assembly.comm.global_sum(n_at_tip);
+  away += assembly.comm.global_sum(n_away);
   assembly.losses.breakages.clear();
 }
 

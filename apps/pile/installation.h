@@ -18,8 +18,11 @@ namespace mergel::apps {
 class BreakageCount {
 public:
   std::size_t all = 0;
-  std::size_t near = 0;  ///< within 2 D_p of the axis
-  std::size_t above = 0; ///< more than D_p above the shoulder and outside the shaft
+  std::size_t near = 0;   ///< within 2 D_p of the axis
+  std::size_t above = 0;  ///< more than D_p above the shoulder and outside the shaft
+  std::size_t at_tip = 0; ///< below the shoulder and within 2 D_p of the tip
+  /// More than D_p/2 above the shoulder, D_p/2 from the shaft and D_p below the surface.
+  std::size_t away = 0;
 
   /// Count the bonds that broke since the last call, and clear their list; collective.
   void collect(const PileCase& c, dem::Assembly& assembly);

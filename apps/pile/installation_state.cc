@@ -103,6 +103,8 @@ dem::CountsOf<Self> Installation::counts_of(Self& self)
           {"breakages between particles", &self.breakage_.all},
           {"breakages near the axis", &self.breakage_.near},
           {"breakages above the shoulder", &self.breakage_.above},
+          {"breakages at the tip", &self.breakage_.at_tip},
+          {"breakages away from the shaft", &self.breakage_.away},
           {"frames due so far", &self.n_frames_},
           {"bonds", &self.n_bonds_},
           {"bonds between particles", &self.n_between_},

@@ -64,7 +64,28 @@ std::optional<dem::SectionAverage> rock_in(const dem::SectionSum& sum)
 RockState state_of(const std::optional<dem::SectionAverage>& rock)
 {
   if (!rock) return {};
-  return {rock->void_ratio(), rock->p(), rock->q()};
+  const dem::PrincipalStress principal = rock->principal();
+  const double angle = std::acos(std::clamp(principal.direction.z(), 0.0, 1.0));
+  return {rock->void_ratio(), rock->p(), rock->q(), principal.minor,
+          angle * 180.0 / dem::pi};
+}
+
+/// By how much the rock between two rings was thicker at the start, over that thickness.
+double thinning_between(const std::optional<dem::SectionAverage>& upper,
+                        const std::optional<dem::SectionAverage>& lower, double distance)
+{
+  if (!upper || !lower) return 0.0;
+  const double lost = lower->displacement.z() - upper->displacement.z();
+  return distance + lost > 0.0 ? lost / (distance + lost) : 0.0;
+}
+
+template <class Findings, class Visit>
+void for_places(Findings& f, const Visit& visit)
+{
+  visit("beside the shaft", f.beside_shaft);
+  visit("above the shoulder", f.above_shoulder);
+  visit("at the shoulder", f.at_shoulder);
+  visit("below the tip", f.below_tip);
 }
 
 /// Of a finished run that is started again the summary is that of its last frame.
@@ -72,24 +93,32 @@ constexpr const char* findings = "output_profile_findings";
 template <class Findings>
 dem::NumbersOf<Findings> numbers_of(Findings& f)
 {
-  return {{"averaging length [m]", &f.averaging_length},
-          {"d50 [m]", &f.d_50},
-          {"radial stress at h = R [Pa]", &f.radial.a},
-          {"exponent of the radial stress [-]", &f.radial.b},
-          {"standard error of that exponent [-]", &f.radial.standard_error},
-          {"rings of that exponent [-]", &f.rings},
-          {"exponent by Chalk ICP-18 [-]", &f.icp18_exponent},
-          {"annulus [m]", &f.annulus},
-          {"void ratio beside the shaft [-]", &f.beside_shaft.void_ratio},
-          {"p beside the shaft [Pa]", &f.beside_shaft.p},
-          {"q beside the shaft [Pa]", &f.beside_shaft.q},
-          {"void ratio below the tip [-]", &f.below_tip.void_ratio},
-          {"p below the tip [Pa]", &f.below_tip.p},
-          {"q below the tip [Pa]", &f.below_tip.q}};
+  dem::NumbersOf<Findings> all{
+      {"averaging length [m]", &f.averaging_length},
+      {"d50 [m]", &f.d_50},
+      {"radial stress at h = R [Pa]", &f.radial.a},
+      {"exponent of the radial stress [-]", &f.radial.b},
+      {"standard error of that exponent [-]", &f.radial.standard_error},
+      {"rings of that exponent [-]", &f.rings},
+      {"exponent by Chalk ICP-18 [-]", &f.icp18_exponent},
+      {"annulus [m]", &f.annulus},
+      {"thinning below the tip [-]", &f.thinning},
+      {"largest tension [Pa]", &f.tension.stress},
+      {"largest tension: distance from the axis [m]", &f.tension.r},
+      {"largest tension: height above the tip [m]", &f.tension.height}};
+  for_places(f, [&](const std::string& place, auto& rock) {
+    all.insert(all.end(), {{"void ratio " + place, &rock.void_ratio},
+                           {"p " + place, &rock.p},
+                           {"q " + place, &rock.q},
+                           {"minor principal stress " + place, &rock.minor},
+                           {"angle of the major principal stress " + place, &rock.angle}});
+  });
+  return all;
 }
 
 constexpr double farthest = 4.0; // from the axis and below the tip, in diameters
 constexpr double damage_of_crushed = 0.5;
+constexpr int window_reach = 1; // cells to each side, as in the fields
 
 } // namespace
 
@@ -150,6 +179,37 @@ void PileProfiles::add(const ProfileFrame& frame, const dem::SectionSums& sums,
   add_shaft(frame, sums, shaft);
   add_tip(frame, sums);
   add_radial(frame, sums);
+  find_states(frame, sums);
+}
+
+void PileProfiles::find_states(const ProfileFrame& frame, const dem::SectionSums& sums)
+{
+  const double w = frame.averaging_length, z_tip = frame.z_tip,
+               z_shoulder = z_tip + tip_height_;
+  const auto rock = [&](double r_from, double r_to, double z_from, double z_to) {
+    return rock_in(sums.between(r_from, r_to, z_from, z_to));
+  };
+  if (frame.depth >= R_) found_.beside_shaft = state_of(rock(R_, R_ + w, z_shoulder, -R_));
+  if (frame.depth >= D_ + R_)
+    found_.above_shoulder =
+        state_of(rock(R_, R_ + D_, z_shoulder + R_, z_shoulder + R_ + D_));
+  if (frame.depth >= R_)
+    found_.at_shoulder = state_of(rock(R_, R_ + D_, z_shoulder - R_, z_shoulder + R_));
+  found_.below_tip = state_of(rock(0.0, R_, z_tip - D_, z_tip));
+  found_.thinning = thinning_between(rock(0.0, R_, z_tip - w, z_tip),
+                                     rock(0.0, R_, z_tip - D_ - w, z_tip - D_), D_);
+
+  const dem::SectionGrid& grid = sums.grid();
+  for (int row = 0; row < grid.n_z; ++row)
+    for (int column = 0; column < grid.n_columns(); ++column) {
+      const double r = std::abs(grid.r_middle(column)), z = grid.z_middle(row);
+      if (z > -D_ || r > farthest * D_) continue;
+      const auto window = rock_in(sums.window(column, row, window_reach));
+      if (!window) continue;
+      if (const double tension = -window->principal().minor;
+          tension > found_.tension.stress)
+        found_.tension = {tension, r, z - z_tip};
+    }
 }
 
 void PileProfiles::add_shaft(const ProfileFrame& frame, const dem::SectionSums& sums,
@@ -172,16 +232,11 @@ void PileProfiles::add_shaft(const ProfileFrame& frame, const dem::SectionSums& 
   if (!found_.radial.is_there()) found_.radial = {};
   found_.rings = static_cast<double>(found_.radial.n);
   found_.icp18_exponent = dem::icp18_exponent(q_c);
-  if (frame.depth >= R_)
-    found_.beside_shaft =
-        state_of(rock_in(sums.between(R_, R_ + frame.averaging_length, z_shoulder, -R_)));
 }
 
 void PileProfiles::add_tip(const ProfileFrame& frame, const dem::SectionSums& sums)
 {
   const double w = frame.averaging_length;
-  found_.below_tip =
-      state_of(rock_in(sums.between(0.0, R_, frame.z_tip - D_, frame.z_tip)));
   for (double below = 0.0; below < farthest * D_; below += w) {
     const auto rock =
         rock_in(sums.between(0.0, R_, frame.z_tip - below - w, frame.z_tip - below));
@@ -247,17 +302,28 @@ void PileProfiles::summarise(Summary& summary) const
     out << "beside the shaft the damage is above 0.5 over " << 1e3 * f.annulus << " mm ("
         << f.annulus / D_ << " D_p, " << f.annulus / f.d_50 << " d50)\n";
   }
-  const auto add = [&](const char* where, const RockState& rock) {
+  for_places(f, [&](const std::string& place, const RockState& rock) {
     if (!rock.is_there()) return;
-    const std::string of = where;
-    summary.number("void ratio " + of + " [-]", rock.void_ratio);
-    summary.number("p " + of + " [Pa]", rock.p);
-    summary.number("q " + of + " [Pa]", rock.q);
-    out << of << ": e " << rock.void_ratio << ", p " << 1e-6 * rock.p << " MPa, q "
-        << 1e-6 * rock.q << " MPa\n";
-  };
-  add("beside the shaft", f.beside_shaft);
-  add("below the tip", f.below_tip);
+    summary.number("void ratio " + place + " [-]", rock.void_ratio);
+    summary.number("porosity " + place + " [-]", rock.void_ratio / (1.0 + rock.void_ratio));
+    summary.number("p " + place + " [Pa]", rock.p);
+    summary.number("q " + place + " [Pa]", rock.q);
+    summary.number("minor principal stress " + place + " [Pa]", rock.minor);
+    summary.number("angle of the major principal stress to the vertical " + place +
+                       " [degree]",
+                   rock.angle);
+    out << place << ": e " << rock.void_ratio << ", p " << 1e-6 * rock.p << " MPa, q "
+        << 1e-6 * rock.q << " MPa, major principal stress " << rock.angle
+        << " degrees off the vertical\n";
+  });
+  summary.number("thinning of the diameter below the tip [-]", f.thinning);
+  if (f.tension.stress > 0.0) {
+    summary.number("largest tension [Pa]", f.tension.stress);
+    summary.number("its distance from the axis over D_p [-]", f.tension.r / D_);
+    summary.number("its height above the tip over D_p [-]", f.tension.height / D_);
+    out << "largest tension " << 1e-6 * f.tension.stress << " MPa, " << f.tension.r / D_
+        << " D_p from the axis, " << f.tension.height / D_ << " D_p above the tip\n";
+  }
 }
 
 } // namespace mergel::apps

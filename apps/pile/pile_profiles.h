@@ -24,7 +24,16 @@ struct ProfileFrame {
 struct RockState {
   double void_ratio = 0.0; ///< [-]; 0: no rock
   double p = 0.0, q = 0.0; ///< [Pa]
+  double minor = 0.0;      ///< principal stress, compression positive [Pa]
+  double angle = 0.0; ///< of the major principal stress to the vertical [degree], 0 to 90
   bool is_there() const { return void_ratio > 0.0; }
+};
+
+/// The largest tensile principal stress of all windows that lie more than a diameter below the
+/// surface and within four of the axis.
+struct Tension {
+  double stress = 0.0;          ///< [Pa]; 0: all is compressed
+  double r = 0.0, height = 0.0; ///< from the axis, above the tip [m]
 };
 
 /// What the profiles of the last frame show.
@@ -34,7 +43,12 @@ struct ProfileFindings {
   double rings = 0.0;                        ///< of that fit, its n [-]
   double icp18_exponent = 0.0;               ///< [-]
   double annulus = -1.0;                     ///< its thickness [m]; below 0: no rock there
-  RockState beside_shaft, below_tip;
+  /// Beside the shaft a window wide over its whole length; the others a diameter high and wide:
+  /// from D_p/2 above the shoulder upwards, around it, and below the tip as wide as the pile.
+  RockState beside_shaft, above_shoulder, at_shoulder, below_tip;
+  /// By how much the rock within a diameter below the tip is thinner than at the start [-].
+  double thinning = 0.0;
+  Tension tension;
 };
 
 class PileProfiles {
@@ -60,6 +74,7 @@ private:
                  const ShaftStress& shaft);
   void add_tip(const ProfileFrame& frame, const dem::SectionSums& sums);
   void add_radial(const ProfileFrame& frame, const dem::SectionSums& sums);
+  void find_states(const ProfileFrame& frame, const dem::SectionSums& sums);
 
   double D_, R_, tip_height_;
   dem::History shaft_, tip_, radial_;

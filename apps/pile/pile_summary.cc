@@ -5,6 +5,7 @@
 #include "apps/run/step_report.h"
 
 #include <array>
+#include <cmath>
 #include <sstream>
 
 namespace mergel::apps {
@@ -18,6 +19,19 @@ std::size_t count_debris(const dem::Assembly& assembly, double collar_height)
 }
 
 namespace {
+
+/// The pile read as a needle penetration test (Ngan-Tillard et al. 2011): head force over
+/// penetration, in proportion to the area of the standard needle of 0.84 mm, and the UCS of its
+/// usual correlation, 0.40 NPI^0.93 [MPa, N/mm]. These constants are from memory.
+void add_needle_index(Summary& s, const PileRecord& r, const dem::RigidWall& pile)
+{
+  if (!(r.F_head > 0.0 && r.tip_depth > 0.0)) return;
+  const double share = 0.84e-3 / (2.0 * std::get<dem::Revolution>(pile.shape).R());
+  const double index = 1e-3 * r.F_head / r.tip_depth * share * share;
+  s.number("needle penetration index [N/mm]", index);
+  s.number("UCS by the needle penetration index, from memory [Pa]",
+           0.4e6 * std::pow(index, 0.93));
+}
 
 void add_figures(Summary& s, const Installation& run,
                  const coupling::CoupledSystem& coupled, std::size_t n_debris,
@@ -35,6 +49,7 @@ void add_figures(Summary& s, const Installation& run,
   s.count("stages done [-]", run.position().n_done);
   s.count("stages that ended at the bearing capacity [-]", run.n_at_capacity());
   s.number("head force of the full pile [N]", r.F_head);
+  add_needle_index(s, r, coupled.assembly.rigid_walls.front());
   s.number("lateral head force of the full pile [N]", r.F_lateral);
   s.number("lateral displacement of the head [m]", r.displacement);
   s.number("rotation of the head [rad]", r.rotation);
@@ -49,6 +64,8 @@ void add_figures(Summary& s, const Installation& run,
   s.count("broken between particles [-]", broken.all);
   s.count("broken within 2 D_p of the axis [-]", broken.near);
   s.count("broken more than D_p above the shoulder [-]", broken.above);
+  s.count("broken below the shoulder within 2 D_p of the tip [-]", broken.at_tip);
+  s.count("broken above the shoulder away from the shaft [-]", broken.away);
   s.count("particles above the collar [-]", n_debris);
   s.number("largest energy error [-]", run.worst_energy_error());
   add_alarm(s, run.energy_alarm());
@@ -115,8 +132,11 @@ void summarise(Summary& summary, const PileCase& c, const Installation& run,
         << " times, and slowed down at the end of each push\n";
   out << "bonds broken: " << r.broken << " of " << run.n_bonds() << ", " << broken.all
       << " of them between particles: " << percent(broken.near, broken.all)
-      << " % within 2 D_p of the axis, " << broken.above
-      << " more than D_p above the shoulder when they broke; " << n_debris
+      << " % within 2 D_p of the axis; when they broke, "
+      << percent(broken.at_tip, broken.all)
+      << " % below the shoulder within 2 D_p of the tip, " << broken.above
+      << " more than D_p above the shoulder, " << broken.away
+      << " above the shoulder away from the shaft; " << n_debris
       << " particles are above the collar\n"
       << "largest energy error " << 100.0 * run.worst_energy_error()
       << " % of the input; largest interface errors " << run.worst_interface().force

@@ -48,9 +48,22 @@ lines tip_profile.csv 'c("time [s]") == 0 { n += 1; sum += c("porosity [-]") }
   END { exit !(n > 0 && sum / n > 0.47 && sum / n < 0.57) }' || fail "the porosity before the penetration is not that of the case"
 [ "$(lines shaft_profile.csv 'END { print NR }')" -gt 1 ] || fail "no ring of the shaft is whole at 2.3 mm"
 lines shaft_profile.csv '{ if (!(c("radial stress [Pa]") >= 0 && c("h/R [-]") > 0)) exit 1 }' || fail "the shaft is pulled"
-for name in "averaging length" "d50 beside the pile" "void ratio below the tip" "p below the tip"; do
+for name in "averaging length" "d50 beside the pile" "void ratio below the tip" "p below the tip" \
+  "angle of the major principal stress to the vertical below the tip" "minor principal stress at the shoulder" \
+  "thinning of the diameter below the tip" "broken below the shoulder within 2 D_p of the tip" \
+  "broken above the shoulder away from the shaft" "needle penetration index"; do
   grep -qF "\"$name" a/summary.json || fail "the summary has no $name"
 done
+
+# The rock below the tip is thinner than at the start, pressed from above; the index is head force over depth.
+found() { sed -n "s/^ *\"$1\": \([^,]*\),*\$/\1/p" a/summary.json; }
+awk -v t="$(found 'thinning of the diameter below the tip \[-\]')" \
+  -v angle="$(found 'angle of the major principal stress to the vertical below the tip \[degree\]')" \
+  'BEGIN { exit !(t > 0 && t < 1 && angle >= 0 && angle < 45) }' || fail "the rock below the tip is not pressed from above"
+awk -v F="$(found 'head force of the full pile \[N\]')" -v d="$(found 'tip depth \[m\]')" \
+  -v D="$(sed -n 's/^ *set diameter *= *\([0-9.]*\) mm.*/\1/p' a/resolved.prm | tail -1)" -v npi="$(found 'needle penetration index \[N\/mm\]')" \
+  'BEGIN { print F, d, D, npi; e = F / (1e3 * d) * (0.84 / D) ^ 2; exit !(npi > 0.999 * e && npi < 1.001 * e) }' ||
+  fail "the needle penetration index is not head force over depth"
 
 # The same bits on two ranks, and from a checkpoint in the middle.
 on_ranks 2 "$mergel" pile "$case_file" "${deep[@]}" --output b >log || fail "two ranks: $(tail -3 log)"
