@@ -37,7 +37,15 @@ const ProfileTable radial_table{
      "damage [-]", "porosity [-]", "void ratio [-]", "outward displacement [m]",
      "upward displacement [m]", "radial stress [Pa]", "hoop stress [Pa]",
      "vertical stress [Pa]", "p [Pa]", "q [Pa]"}};
-const std::array<const ProfileTable*, 3> tables{&shaft_table, &tip_table, &radial_table};
+const ProfileTable path_table{
+    "stress_path.csv",
+    "output_stress_path",
+    {"time [s]", "depth/D_p [-]", "depth of the point/D_p [-]", "r/R [-]",
+     "height above the tip/D_p [-]", "damage [-]", "porosity [-]", "void ratio [-]",
+     "radial stress [Pa]", "hoop stress [Pa]", "vertical stress [Pa]", "p [Pa]", "q [Pa]",
+     "major principal stress to the vertical [degree]"}};
+const std::array<const ProfileTable*, 4> tables{&shaft_table, &tip_table, &radial_table,
+                                                &path_table};
 
 /// The beginning of the table in a checkpoint that has none.
 dem::HistoryMark mark_in(const dem::State& state, const char* name)
@@ -126,7 +134,8 @@ PileProfiles::PileProfiles(const std::filesystem::path& folder, const PileCase& 
     : D_(c.diameter), R_(0.5 * c.diameter), tip_height_(c.tip_height()),
       shaft_(folder / shaft_table.file, shaft_table.columns),
       tip_(folder / tip_table.file, tip_table.columns),
-      radial_(folder / radial_table.file, radial_table.columns)
+      radial_(folder / radial_table.file, radial_table.columns),
+      path_(folder / path_table.file, path_table.columns), deepest_(c.travel())
 {
 }
 
@@ -135,7 +144,8 @@ PileProfiles::PileProfiles(const std::filesystem::path& folder, const PileCase& 
     : D_(c.diameter), R_(0.5 * c.diameter), tip_height_(c.tip_height()),
       shaft_(continued(shaft_table, folder, earlier, state)),
       tip_(continued(tip_table, folder, earlier, state)),
-      radial_(continued(radial_table, folder, earlier, state))
+      radial_(continued(radial_table, folder, earlier, state)),
+      path_(continued(path_table, folder, earlier, state)), deepest_(c.travel())
 {
   if (!state.has(findings)) return; // older checkpoints
   dem::load_numbers(state, findings, numbers_of(found_));
@@ -151,6 +161,7 @@ void PileProfiles::save(dem::State& state, const PileProfiles* profiles)
   add(shaft_table, profiles ? &profiles->shaft_ : nullptr);
   add(tip_table, profiles ? &profiles->tip_ : nullptr);
   add(radial_table, profiles ? &profiles->radial_ : nullptr);
+  add(path_table, profiles ? &profiles->path_ : nullptr);
   const ProfileFindings found = profiles ? profiles->found_ : ProfileFindings{};
   dem::save_numbers(state, findings, numbers_of(found));
 }
@@ -167,7 +178,8 @@ std::string PileProfiles::check(const std::filesystem::path& folder,
 
 void PileProfiles::require_in_place() const
 {
-  for (const dem::History* table : {&shaft_, &tip_, &radial_}) table->require_in_place();
+  for (const dem::History* table : {&shaft_, &tip_, &radial_, &path_})
+    table->require_in_place();
 }
 
 void PileProfiles::add(const ProfileFrame& frame, const dem::SectionSums& sums,
@@ -179,7 +191,23 @@ void PileProfiles::add(const ProfileFrame& frame, const dem::SectionSums& sums,
   add_shaft(frame, sums, shaft);
   add_tip(frame, sums);
   add_radial(frame, sums);
+  add_paths(frame, sums);
   find_states(frame, sums);
+}
+
+void PileProfiles::add_paths(const ProfileFrame& frame, const dem::SectionSums& sums)
+{
+  const double half = 0.5 * frame.averaging_length;
+  for (int k = 1; k * D_ <= deepest_; ++k)
+    for (const double r : {half, R_ + half, D_ + half}) {
+      const double z = -k * D_;
+      const auto rock = rock_in(sums.between(r - half, r + half, z - half, z + half));
+      if (!rock) continue; // the pile is there
+      path_.add({frame.time, frame.depth / D_, static_cast<double>(k), r / R_,
+                 (z - frame.z_tip) / D_, rock->damage, rock->porosity, rock->void_ratio(),
+                 -rock->stress(0, 0), -rock->stress(1, 1), -rock->stress(2, 2), rock->p(),
+                 rock->q(), state_of(rock).angle});
+    }
 }
 
 void PileProfiles::find_states(const ProfileFrame& frame, const dem::SectionSums& sums)

@@ -1,5 +1,6 @@
-/// Profiles along the shaft, below the tip and away from the pile, at each frame:
-/// shaft_profile.csv, tip_profile.csv and radial_profile.csv.
+/// Profiles along the shaft, below the tip and away from the pile, and the stress at points that
+/// the tip passes, at each frame: shaft_profile.csv, tip_profile.csv, radial_profile.csv and
+/// stress_path.csv.
 #pragma once
 
 #include "apps/pile/shaft_stress.h"
@@ -74,10 +75,12 @@ private:
                  const ShaftStress& shaft);
   void add_tip(const ProfileFrame& frame, const dem::SectionSums& sums);
   void add_radial(const ProfileFrame& frame, const dem::SectionSums& sums);
+  void add_paths(const ProfileFrame& frame, const dem::SectionSums& sums);
   void find_states(const ProfileFrame& frame, const dem::SectionSums& sums);
 
   double D_, R_, tip_height_;
-  dem::History shaft_, tip_, radial_;
+  dem::History shaft_, tip_, radial_, path_;
+  double deepest_; ///< of the tip, as far as the case goes [m]
   ProfileFindings found_;
 };
 

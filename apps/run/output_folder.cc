@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<std::string_view, 40> own_files{
+constexpr std::array<std::string_view, 42> own_files{
     "history.csv",        "localisation.csv", "localisation.png",  "resolved.prm",
     "summary.json",       "sample.h5",        "damage.png",        "load.png",
     "displacement.png",   "particles.pvd",    "bonds.pvd",         "pile.pvd",
@@ -36,7 +36,8 @@ constexpr std::array<std::string_view, 40> own_files{
     "brazilian.png",      "disc.png",         "compare.png",       "failed.json",
     "fields.pvd",         "contacts.pvd",     "shaft_profile.csv", "tip_profile.csv",
     "radial_profile.csv", "stress.png",       "porosity.png",      "layers.png",
-    "principal.png",      "chains.png",       "shaft.png",         "profiles.png"};
+    "principal.png",      "chains.png",       "shaft.png",         "profiles.png",
+    "stress_path.csv",    "paths.png"};
 constexpr std::string_view own_folder = "fields";
 constexpr std::string_view first_bytes_of_hdf5 = "\x89HDF\r\n\x1a\n";
 

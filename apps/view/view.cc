@@ -1,6 +1,6 @@
 /// mergel-view: pictures of runs. Of a pile run: load.png, damage.png, displacement.png, those of
 /// its continuum fields (stress.png, porosity.png, layers.png, principal.png, chains.png) and of
-/// its profiles (shaft.png, profiles.png);
+/// its profiles (shaft.png, profiles.png, paths.png);
 /// of bond runs: loads.png and surface.png; of element runs: element.png or isotropic.png;
 /// of triaxial runs: triaxial.png or isotropic.png, and of one specimen.png and
 /// localisation.png; of Brazilian runs: brazilian.png, and of one disc.png; of several element

@@ -46,6 +46,11 @@ for table in tip_profile radial_profile; do
 done
 lines tip_profile.csv 'c("time [s]") == 0 { n += 1; sum += c("porosity [-]") }
   END { exit !(n > 0 && sum / n > 0.47 && sum / n < 0.57) }' || fail "the porosity before the penetration is not that of the case"
+# Rings that stand still: the tip, with its points on the axis and beside it, passes the upper ones; stress below it.
+lines stress_path.csv 'function low(a, b) { return a < b ? a : b }
+  { n = c("porosity [-]"); h = c("height above the tip/D_p [-]"); top = h > top ? h : top; bottom = low(bottom, h)
+    if (!(n > 0.1 && n < 0.8 && c("q [Pa]") >= 0)) exit 1 }
+  END { exit !(top > 0.5 && bottom < -0.9) }' || fail "the paths do not tell of points that the tip passes"
 [ "$(lines shaft_profile.csv 'END { print NR }')" -gt 1 ] || fail "no ring of the shaft is whole at 2.3 mm"
 lines shaft_profile.csv '{ if (!(c("radial stress [Pa]") >= 0 && c("h/R [-]") > 0)) exit 1 }' || fail "the shaft is pulled"
 for name in "averaging length" "d50 beside the pile" "void ratio below the tip" "p below the tip" \

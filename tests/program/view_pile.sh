@@ -25,15 +25,16 @@ makes() {
     head -c 64 "$picture" | od -An -v -tx1 | tr -d ' \n' | grep -q 7048597300002e2300002e2301 || fail "$picture does not state 300 dpi"
   done
 }
-fields="chains.png damage.png displacement.png layers.png load.png porosity.png principal.png profiles.png shaft.png stress.png"
+fields="chains.png damage.png displacement.png layers.png load.png paths.png porosity.png principal.png profiles.png shaft.png stress.png"
 makes "$fields" run
 cp -r out last
 makes "${fields/shaft.png /}" run --frame 1 # the cone alone is in the ground
 grep -q 'no shaft.png' log || fail "a frame without a ring: $(cat log)"
-for picture in stress porosity layers principal chains profiles; do
+for picture in stress porosity layers principal chains profiles paths; do
   ! cmp -s "last/$picture.png" "out/$picture.png" || fail "$picture.png is the same at another frame"
 done
 makes "chains.png damage.png layers.png load.png porosity.png principal.png profiles.png stress.png" run --frame 0
+grep -q 'no paths.png' log || fail "a frame before the tip has moved: $(cat log)"
 
 # A measured curve is laid over the load, and changes no other run's picture.
 printf 'depth [mm],head force [N]\n0,2\n0.8,9\n1.5,15\n' >lab.csv

@@ -9,7 +9,9 @@
 
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <optional>
+#include <sstream>
 #include <vector>
 
 namespace mergel::apps {
@@ -155,6 +157,52 @@ void draw_rock(Page& page, const Profile& tip, const Profile& beside_tip,
              caption, key);
 }
 
+/// State of a point that the tip passes, as far as a frame.
+struct StressPath {
+  std::vector<double> p, q, height; ///< [MPa]; of the point above the tip, over D
+};
+
+/// Of the points beside the shaft, by their depth over D; those with two states or more.
+std::map<double, StressPath> paths_beside_shaft(const dem::Table& table, double time)
+{
+  const auto &t = table.column("time", "s"),
+             &depth = table.column("depth of the point/D_p", "-"),
+             &r = table.column("r/R", "-"),
+             &height = table.column("height above the tip/D_p", "-"),
+             &p = table.column("p", "Pa"), &q = table.column("q", "Pa");
+  std::map<double, StressPath> paths;
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    const bool is_beside = r[k] > 1.0 && r[k] < 2.0;
+    if (!is_beside || t[k] > time * (1.0 + round_off)) continue;
+    StressPath& path = paths[depth[k]];
+    path.p.push_back(MPa * p[k]);
+    path.q.push_back(MPa * q[k]);
+    path.height.push_back(height[k]);
+  }
+  std::erase_if(paths, [](const auto& at) { return at.second.p.size() < 2; });
+  return paths;
+}
+
+void draw_paths(Page& page, const std::map<double, StressPath>& paths,
+                const std::string& caption)
+{
+  Plot left, right;
+  left.x = {"p (MPa)", Reach::from_zero};
+  left.y = {"q (MPa)", Reach::from_zero};
+  right.x = {"height of the point above the tip / D", Reach::of_values};
+  right.y = {"p (MPa)", Reach::from_zero};
+  std::vector<KeyEntry> key;
+  for (const auto& [depth, path] : paths) {
+    const Stroke stroke = distinct_stroke(key.size());
+    left.curves.push_back({path.p, path.q, stroke});
+    right.curves.push_back({path.height, path.p, stroke});
+    std::ostringstream name;
+    name << "beside the shaft, " << depth << " D deep";
+    key.push_back({name.str(), stroke, Mark::none});
+  }
+  draw_plots(page, {left, right}, caption, key);
+}
+
 } // namespace
 
 void draw_profiles(const Options& options, const fs::path& output, double time,
@@ -168,6 +216,16 @@ void draw_profiles(const Options& options, const fs::path& output, double time,
     save(options, page, output / "shaft.png");
   } else {
     std::cout << "no shaft.png: no ring of the shaft is whole below the surface\n";
+  }
+  const auto path = profile_in(folder, "stress_path.csv");
+  if (const auto paths =
+          path ? paths_beside_shaft(*path, time) : std::map<double, StressPath>{};
+      !paths.empty()) {
+    Page page(options.size.width, options.has_size ? options.size.height : 900);
+    draw_paths(page, paths, caption);
+    save(options, page, output / "paths.png");
+  } else {
+    std::cout << "no paths.png: the tip has not moved past a point of stress_path.csv\n";
   }
   const auto tip = profile_in(folder, "tip_profile.csv"),
              radial = profile_in(folder, "radial_profile.csv");

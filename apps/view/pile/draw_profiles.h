@@ -1,5 +1,5 @@
-/// Profiles of a pile run at one frame: shaft.png (stresses along the shaft) and profiles.png
-/// (rock below the tip, and away from the pile).
+/// Profiles of a pile run at one frame: shaft.png (stresses along the shaft), profiles.png (rock
+/// below the tip, and away from the pile), and paths.png (stress at points that the tip passes).
 #pragma once
 
 #include "apps/view/options.h"
