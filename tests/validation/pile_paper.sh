@@ -50,9 +50,9 @@ line_of() { # FOLDER
   # The scatter is the standard deviation of the means over 0.5 D_p.
   q=$(of_table "$d/history.csv" '{ d = c("depth/D_p [-]") } d >= 3 { k = int(2 * d); s[k] += c("q_c [Pa]") / 1e6; ++n[k]; all += c("q_c [Pa]") / 1e6; ++m }
     END { for (k in s) if (n[k] > 5) { x = s[k] / n[k]; a += x; b += x * x; ++l }
-      print (m ? all / m : "nan") "," (l > 1 ? sqrt((b - a * a / l) / (l - 1)) : "nan") }')
+      printf "%s,%s\n", (m ? all / m : "nan"), (l > 1 ? sqrt((b - a * a / l) / (l - 1)) : "nan") }')
   local broken; broken=$(number "$d" "broken between particles [-]")
-  of_share() { awk -v a="$(number "$d" "$1")" -v b="$broken" 'BEGIN { print b > 0 ? 100 * a / b : 0 }'; }
+  of_share() { awk -v a="$(number "$d" "$1")" -v b="$broken" 'BEGIN { print (b > 0 ? 100 * a / b : 0) }'; }
   scaled() { awk -v a="$(number "$d" "$1")" -v f="$2" 'BEGIN { if (a == "") print ""; else print f * a }'; }
   local D; D=$(awk '/^subsection Pile/ { on = 1 } on && /set diameter/ { print $4; exit }' "$d/resolved.prm")
   local values=("$(of_table "$d/history.csv" '{ d = c("depth/D_p [-]") } END { print d }')" "$q"
@@ -89,4 +89,4 @@ awk -F, 'NR == 1 { n = NF; for (k = 2; k <= NF; ++k) name[k] = $k; next }
   { for (k = 2; k <= n; ++k) if ($k != "" && $k != "nan") { s[k] += $k; s2[k] += $k * $k; ++m[k] } }
   END { printf "%-66s %12s %12s %s\n", "finding", "mean", "error", "packings"
     for (k = 2; k <= n; ++k) if (m[k]) { a = s[k] / m[k]; v = s2[k] / m[k] - a * a
-      printf "%-66s %12.4g %12s %d\n", name[k], a, m[k] > 1 ? sprintf("%.2g", sqrt((v > 0 ? v : 0) / (m[k] - 1))) : "-", m[k] } }' findings.csv
+      printf "%-66s %12.4g %12s %d\n", name[k], a, (m[k] > 1 ? sprintf("%.2g", sqrt((v > 0 ? v : 0) / (m[k] - 1))) : "-"), m[k] } }' findings.csv
