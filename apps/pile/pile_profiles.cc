@@ -1,5 +1,6 @@
 #include "apps/pile/pile_profiles.h"
 
+#include "apps/pile/pile_continuum.h"
 #include "apps/run/restart.h"
 #include "dem/io/state/named_numbers.h"
 
@@ -126,7 +127,6 @@ dem::NumbersOf<Findings> numbers_of(Findings& f)
 
 constexpr double farthest = 4.0; // from the axis and below the tip, in diameters
 constexpr double damage_of_crushed = 0.5;
-constexpr int window_reach = 1; // cells to each side, as in the fields
 
 } // namespace
 
@@ -232,7 +232,7 @@ void PileProfiles::find_states(const ProfileFrame& frame, const dem::SectionSums
     for (int column = 0; column < grid.n_columns(); ++column) {
       const double r = std::abs(grid.r_middle(column)), z = grid.z_middle(row);
       if (z > -D_ || r > farthest * D_) continue;
-      const auto window = rock_in(sums.window(column, row, window_reach));
+      const auto window = rock_in(sums.window(column, row, PileContinuum::reach));
       if (!window) continue;
       if (const double tension = -window->principal().minor;
           tension > found_.tension.stress)

@@ -54,7 +54,6 @@ line_of() { # FOLDER
   local broken; broken=$(number "$d" "broken between particles [-]")
   of_share() { awk -v a="$(number "$d" "$1")" -v b="$broken" 'BEGIN { print (b > 0 ? 100 * a / b : 0) }'; }
   scaled() { awk -v a="$(number "$d" "$1")" -v f="$2" 'BEGIN { if (a == "") print ""; else print f * a }'; }
-  local D; D=$(awk '/^subsection Pile/ { on = 1 } on && /set diameter/ { print $4; exit }' "$d/resolved.prm")
   local values=("$(of_table "$d/history.csv" '{ d = c("depth/D_p [-]") } END { print d }')" "$q"
     "$(awk -v q="${q%%,*}" -v u="${UCS:-4.14}" 'BEGIN { print q / u }')" "$(scaled "head force of the full pile [N]" 1)"
     "$(scaled "shaft force of the full pile [N]" 1)" "$(scaled "needle penetration index [N/mm]" 1)"
