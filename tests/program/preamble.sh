@@ -78,11 +78,20 @@ launch()
   launched=$!
 }
 
-# wait_for CONDITION...: until it holds, as long as $launched runs.
+# What computes of that which was launched: the program itself, or the ranks that mpirun has started.
+signal_ranks() { kill -"$1" "$launched" 2>/dev/null && { pkill -"$1" -P "$launched" mergel || true; }; }
+
+# wait_for CONDITION...: until it holds, as long as $launched runs. The run stands still while the condition is
+# looked at: a look takes longer than a small run where the machine is busy, and the run must be under way after.
 wait_for()
 {
-  until "$@"; do
-    kill -0 "$launched" 2>/dev/null || { "$@" && return; fail "it ended before \"$*\": $(tail -3 log)"; }
+  local holds
+  while :; do
+    signal_ranks STOP || { "$@" && return; fail "it ended before \"$*\": $(tail -3 log)"; }
+    holds=no
+    if "$@"; then holds=yes; fi
+    signal_ranks CONT || true
+    [ $holds = no ] || return 0
     sleep 0.02
   done
 }
