@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -83,6 +84,17 @@ std::vector<Pair> neighbours(const std::vector<Vec3>& x, const std::vector<doubl
   return find_pairs(at(x, R), cell, 0.0, extra);
 }
 
+bool holds_neighbourhoods(const PeriodicCell& cell, const std::vector<double>& R)
+{
+  if (R.empty()) return true;
+  // A hair more than what find_pairs() asks for, which sums the same length otherwise.
+  const double needed =
+      4.0 * (1.0 + 1e-9) * neighbour_reach * *std::max_element(R.begin(), R.end());
+  for (const double edge : cell.size)
+    if (edge > 0.0 && edge < needed) return false;
+  return true;
+}
+
 std::vector<DeformationFit> local_deformations(const std::vector<Vec3>& X,
                                                const std::vector<Vec3>& x,
                                                const std::vector<double>& R,
@@ -110,6 +122,25 @@ std::vector<DeformationFit> local_deformations(const std::vector<Vec3>& X,
     for (const Index i : {q.i, q.j}) fits[i].D2_min += remainder(fits[i], D(q), d(q));
   for (std::size_t i = 0; i < fits.size(); ++i) divide_by_distances(fits[i], moments[i]);
   return fits;
+}
+
+std::vector<Mat3> velocity_gradients(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                     const std::vector<double>& R, const PeriodicCell& cell)
+{
+  if (v.size() != x.size() || R.size() != x.size())
+    throw std::logic_error("velocity_gradients: positions, velocities and radii differ in "
+                           "number");
+  const Mat3 of_cell = cell.rate.asDiagonal();
+  std::vector<Mat3> all(x.size(), of_cell);
+  if (!holds_neighbourhoods(cell, R)) return all;
+  std::vector<Moments> moments(x.size());
+  for (const Pair& q : neighbours(x, R, cell)) {
+    const Vec3 D = x[q.j] + cell.offset(q.shift) - x[q.i], d = v[q.j] - v[q.i];
+    for (const Index i : {q.i, q.j}) moments[i].add(D, d);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (const DeformationFit fit = moments[i].fit(); fit.n > 0) all[i] += fit.F;
+  return all;
 }
 
 DeformationFit deformation_of(const std::vector<Vec3>& X, const std::vector<Vec3>& x,

@@ -53,6 +53,17 @@ std::vector<DeformationFit> local_deformations(const std::vector<Vec3>& X,
                                                const PeriodicCell& cell_0 = {},
                                                const PeriodicCell& cell = {});
 
+/// Velocity gradient L of each particle at this moment [1/s]: it minimises
+/// sum |v_j - v_i - L (x_j - x_i)|^2 over the neighbours within neighbour_reach now. In a strained
+/// cell, whose velocities are relative to it, its rate is added. Where the neighbours do not
+/// determine L, or the cell is too narrow for neighbourhoods (neighbourhood.h), it is that of the
+/// cell, 0 without one.
+/// @param x positions [m], v velocities [m/s], R radii [m], > 0
+/// @throws std::logic_error when x, v and R differ in number
+std::vector<Mat3> velocity_gradients(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                     const std::vector<double>& R,
+                                     const PeriodicCell& cell = {});
+
 /// Fit of the particles `indices` about their centroid. No periodic images: the positions
 /// are taken as they are.
 /// @param X, x reference and present positions of all particles [m]

@@ -13,4 +13,8 @@ namespace mergel::dem {
 std::vector<Pair> neighbours(const std::vector<Vec3>& x, const std::vector<double>& R,
                              const PeriodicCell& cell = {});
 
+/// Whether neighbours() finds each pair once: in a periodic cell that is narrower than the
+/// neighbourhood of its largest particle a particle would have neighbours twice, or itself.
+bool holds_neighbourhoods(const PeriodicCell& cell, const std::vector<double>& R);
+
 } // namespace mergel::dem

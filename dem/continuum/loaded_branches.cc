@@ -34,7 +34,7 @@ std::vector<LoadedBranch> loaded_branches(const Assembly& assembly,
     if (!all.empty() && q == last) // the contact of a bonded pair
       all.back().F += F;
     else
-      all.push_back({q.i, q.j, BranchEnd::particle, b.r, F});
+      all.push_back({q.i, q.j, BranchEnd::particle, b.r, F, q.shift});
     last = q;
   });
   for (const Mirror& mirror : assembly.mirrors)

@@ -22,6 +22,7 @@ struct LoadedBranch {
   BranchEnd end = BranchEnd::particle;
   Vec3 r = Vec3::Zero(); ///< from the centre of i [m]
   Vec3 F = Vec3::Zero(); ///< on i [N]
+  Shift shift{};         ///< of j, where it is an image through a face of a periodic cell
 
   double normal_force() const ///< compression positive [N]
   {

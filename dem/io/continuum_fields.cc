@@ -118,7 +118,7 @@ void write_contacts(const std::filesystem::path& file, const Particles& p,
   for (const LoadedBranch& b : branches) {
     if (b.F == Vec3::Zero()) continue;
     Index end = b.j;
-    if (b.end != BranchEnd::particle) {
+    if (b.end != BranchEnd::particle || b.shift != Shift{}) {
       end = static_cast<Index>(x.size());
       x.push_back(p.state[b.i].x + b.r);
     }

@@ -28,7 +28,8 @@ Field vector_field(const std::string& name, const std::vector<Vec3>& vectors);
 
 /// Force chains: lines along the branches that bear a load, with "normal force [N]" (compression
 /// positive) and "shear force [N]" (its size), net of bond and contact. A branch to a wall ends on
-/// the wall, one to an image on the plane y = 0.
+/// the wall, one to a mirror image on the plane y = 0, one through a face of a periodic cell at the
+/// centre of the image.
 void write_contacts(const std::filesystem::path& file, const Particles& p,
                     const std::vector<LoadedBranch>& branches);
 

@@ -123,6 +123,19 @@ TEST_CASE("Every inner particle of a crystal under pressure has its stress", "[u
   CHECK(n_inner > 5000);
 }
 
+TEST_CASE("A neighbourhood that lost a tenth of its volume lost it of its voids",
+          "[unit][dem]")
+{
+  const Mat3 F = Vec3(1.0, 1.0, 0.9).asDiagonal();
+  const Mat3 spread = Vec3(10.0, 1.0, 1.0).asDiagonal(), turned_out = -F;
+  const auto n =
+      strained_porosity(0.55, {{}, {F, 0.0, 6}, {spread, 0.0, 6}, {turned_out, 0.0, 6}});
+  CHECK(n[0] == Approx(0.55));
+  CHECK(n[1] == Approx(1.0 - 0.45 / 0.9));
+  CHECK(n[2] == 1.0 - smallest_solid); // debris
+  CHECK(n[3] == Approx(0.55));         // no deformation of a solid
+}
+
 TEST_CASE("The section of a crystal under pressure shows its stress and porosity",
           "[unit][dem]")
 {

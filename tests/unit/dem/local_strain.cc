@@ -243,6 +243,34 @@ TEST_CASE("In a strained periodic cell every particle has the strain of the cell
   CHECK_THROWS_AS(local_deformations(X, X, radii(X), narrow, narrow), mergel::InputError);
 }
 
+TEST_CASE("The velocity gradient of an affine motion is found by every particle",
+          "[unit][dem]")
+{
+  const std::vector<Vec3> x = disordered(4);
+  Mat3 L;
+  L << 3.0, -1.0, 0.5, 2.0, -4.0, 0.0, 1.0, 0.3, 2.0; // [1/s]
+  for (const Mat3& found : velocity_gradients(x, moved(L, x), radii(x)))
+    REQUIRE((found - L).norm() < round_off * L.norm());
+  const std::vector<Vec3> three(x.begin(), x.begin() + 3); // too few to determine it
+  for (const Mat3& found : velocity_gradients(three, moved(L, three), radii(three)))
+    CHECK(found == Mat3::Zero());
+  CHECK_THROWS_AS(velocity_gradients(x, {}, radii(x)), std::logic_error);
+}
+
+TEST_CASE("Particles at rest in a cell have its rate, in a narrow one too", "[unit][dem]")
+{
+  const std::vector<Vec3> x = disordered(4);
+  const std::vector<Vec3> v(x.size(), Vec3::Zero()); // relative to the cell
+  PeriodicCell cell{Vec3::Constant(8.0 * R)};
+  cell.rate = {0.1, 0.2, -0.4};
+  const Mat3 rate = cell.rate.asDiagonal();
+  for (const double edge : {8.0 * R, 5.99 * R}) {
+    cell.size = Vec3::Constant(edge);
+    for (const Mat3& found : velocity_gradients(x, v, radii(x), cell))
+      REQUIRE((found - rate).norm() == 0.0);
+  }
+}
+
 TEST_CASE("Positions and radii of different number are refused", "[unit][dem]")
 {
   const std::vector<Vec3> X = octahedron();
