@@ -132,7 +132,10 @@ std::string BrazilianJob::record()
 void BrazilianJob::frame()
 {
   const auto assembly = dem::gather_on_first_rank(system_->assembly);
-  on_first_rank([&] { output_->frame(system_->time, *assembly, *system_, *test_); });
+  on_first_rank([&] {
+    output_->frame(system_->time, *assembly, *system_, *test_,
+                   case_.specimen.specimen.porosity);
+  });
 }
 
 std::string BrazilianJob::now() const

@@ -2,7 +2,9 @@
 
 #include "apps/run/restart.h"
 #include "dem/assembly/local_strain.h"
+#include "dem/continuum/particle_stress.h"
 #include "dem/io/assembly_fields.h"
+#include "dem/io/assembly_frame.h"
 
 namespace mergel::apps {
 
@@ -41,8 +43,11 @@ const std::vector<std::string> columns{"time [s]",
                                        "time step [s]",
                                        "stable step [s]"};
 
-const std::vector<Frames::Kind> kinds{
-    {"particles", "vtp"}, {"bonds", "vtp"}, {"breaks", "vtp"}, {"plates", "vtp"}};
+const std::vector<Frames::Kind> kinds{{"particles", "vtp"},
+                                      {"bonds", "vtp"},
+                                      {"breaks", "vtp"},
+                                      {"plates", "vtp"},
+                                      {"contacts", "vtp"}};
 
 dem::HistoryMark mark_in(const dem::State& state)
 {
@@ -164,7 +169,7 @@ void BrazilianOutput::record(const coupling::BrazilianRecord& r)
 
 void BrazilianOutput::frame(double time, const dem::Assembly& assembly,
                             const coupling::CoupledSystem& system,
-                            const coupling::BrazilianTest& test)
+                            const coupling::BrazilianTest& test, double porosity)
 {
   require_in_place();
   std::vector<dem::Vec3> x;
@@ -173,9 +178,11 @@ void BrazilianOutput::frame(double time, const dem::Assembly& assembly,
     x.push_back(b.x);
     R.push_back(b.R);
   }
-  dem::write_particles(frames_.file(0), assembly, system.x_0,
-                       dem::strain_fields(dem::local_deformations(system.x_0, x, R)));
-  dem::write_bonds(frames_.file(1), assembly);
+  const auto fits = dem::local_deformations(system.x_0, x, R);
+  const auto branches = dem::loaded_branches(assembly, {});
+  dem::write_frame({frames_.file(0), frames_.file(1), frames_.file(4)},
+                   {assembly, system.x_0, branches, dem::strained_porosity(porosity, fits),
+                    dem::strain_fields(fits)});
   write_breaks(frames_.file(2), test.breaks());
   write_plates(frames_.file(3), assembly, disc_);
   frames_.add(time);

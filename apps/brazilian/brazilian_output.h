@@ -24,10 +24,12 @@ public:
   void record(const coupling::BrazilianRecord& r);
   /// @throws NumericalError when another program has touched the history
   void require_in_place() const { history_.require_in_place(); }
-  /// Particles, bonds, breaks and plates at this time [s].
+  /// Particles, bonds, contacts, breaks and plates at this time [s].
   /// @param assembly gathered: all particles
+  /// @param porosity of the disc before the test, for the stress of the particles [-]
   void frame(double time, const dem::Assembly& assembly,
-             const coupling::CoupledSystem& system, const coupling::BrazilianTest& test);
+             const coupling::CoupledSystem& system, const coupling::BrazilianTest& test,
+             double porosity);
 
 private:
   coupling::DiscGeometry disc_;

@@ -2,7 +2,8 @@
 
 #include "apps/run/ranks.h"
 #include "dem/assembly/distribute.h"
-#include "dem/io/assembly_fields.h"
+#include "dem/continuum/particle_stress.h"
+#include "dem/io/assembly_frame.h"
 
 #include <cmath>
 
@@ -10,17 +11,8 @@ namespace mergel::apps {
 
 namespace {
 
-const std::vector<Frames::Kind> kinds{{"particles", "vtp"}, {"bonds", "vtp"}};
-
-/// Rows of the tensors, tension positive.
-dem::Field stress_field(const dem::Assembly& assembly)
-{
-  dem::Field field{"stress", 9, {}};
-  for (const dem::Mat3& sigma : dem::particle_stresses(assembly))
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) field.values.push_back(sigma(a, b));
-  return field;
-}
+const std::vector<Frames::Kind> kinds{
+    {"particles", "vtp"}, {"bonds", "vtp"}, {"contacts", "vtp"}};
 
 } // namespace
 
@@ -85,8 +77,13 @@ void ElementPictures::take_picture()
   size_last_ = mine.cell.size;
   const auto assembly = dem::gather_on_first_rank(mine);
   on_first_rank([&] {
-    dem::write_particles(frames_->file(0), *assembly, x_0_, {stress_field(*assembly)});
-    dem::write_bonds(frames_->file(1), *assembly);
+    const auto branches = dem::loaded_branches(*assembly, {});
+    dem::write_frame({frames_->file(0), frames_->file(1), frames_->file(2)},
+                     {*assembly,
+                      x_0_,
+                      branches,
+                      dem::even_porosity(assembly->particles, assembly->cell.volume()),
+                      {}});
     frames_->add(run_.state().time);
   });
 }

@@ -1,4 +1,4 @@
-/// Pictures of an element test for ParaView: its particles and bonds, as a series in time.
+/// Pictures of an element test for ParaView: its particles, bonds and contacts as series in time.
 #pragma once
 
 #include "apps/element/element_case.h"
@@ -12,8 +12,8 @@
 
 namespace mergel::apps {
 
-/// fields/particles_0000.vtp and fields/bonds_0000.vtp, and so on, with particles.pvd and
-/// bonds.pvd. Displacements count from the first picture.
+/// fields/particles_0000.vtp, fields/bonds_0000.vtp and fields/contacts_0000.vtp, and so on, with
+/// particles.pvd, bonds.pvd and contacts.pvd. Displacements count from the first picture.
 class ElementPictures {
 public:
   /// Takes the first picture, of the assembly before the first stage. Collective, as is

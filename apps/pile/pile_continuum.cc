@@ -1,6 +1,5 @@
 #include "apps/pile/pile_continuum.h"
 
-#include "dem/continuum/particle_stress.h"
 #include "dem/io/assembly_fields.h"
 #include "dem/io/continuum_fields.h"
 
@@ -58,12 +57,11 @@ PileContinuum::PileContinuum(const ContinuumSpec& spec, const FrameInput& frame)
 {
 }
 
-std::vector<dem::Field> PileContinuum::particle_fields() const
+std::vector<double> PileContinuum::porosity() const
 {
-  const dem::Particles& p = frame_.assembly.particles;
   const dem::SectionGrid& grid = sums_.grid();
-  std::vector<double> porosity; // of the window around each particle
-  for (const dem::ParticleState& b : p.state) {
+  std::vector<double> porosity;
+  for (const dem::ParticleState& b : frame_.assembly.particles.state) {
     const std::ptrdiff_t at = grid.cell_at({b.x.x(), std::abs(b.x.y()), b.x.z()});
     double n = 1.0 - dem::smallest_solid; // of debris outside of the grid
     if (at >= 0) {
@@ -75,17 +73,20 @@ std::vector<dem::Field> PileContinuum::particle_fields() const
     }
     porosity.push_back(n);
   }
+  return porosity;
+}
+
+std::vector<dem::Field> PileContinuum::particle_fields() const
+{
   dem::Field layer{"layer [-]", 1, {}};
   for (const dem::Vec3& x : frame_.x_0)
     layer.values.push_back(std::floor(-x.z() / spec_.layer));
   std::vector<dem::Field> fields{
-      dem::tensor_field("stress [Pa]", dem::neighbourhood_stresses(p, branches_, porosity)),
       dem::vector_field("displacement increment [m]", values_.increment)};
   for (dem::Field& field : dem::strain_fields(fits_)) {
     field.name.insert(field.name.find(" ["), " of the increment");
     fields.push_back(std::move(field));
   }
-  fields.push_back({"coordination [-]", 1, values_.coordination});
   fields.push_back(std::move(layer));
   return fields;
 }
@@ -93,11 +94,6 @@ std::vector<dem::Field> PileContinuum::particle_fields() const
 void PileContinuum::write_section(const std::filesystem::path& file) const
 {
   dem::write_section(file, sums_, reach);
-}
-
-void PileContinuum::write_contacts(const std::filesystem::path& file) const
-{
-  dem::write_contacts(file, frame_.assembly.particles, branches_);
 }
 
 } // namespace mergel::apps

@@ -32,10 +32,12 @@ public:
   PileContinuum(const ContinuumSpec& spec, const FrameInput& frame);
 
   const dem::SectionSums& sums() const { return sums_; }
-  /// Further fields of the particles (apps/pile/README.md, Results).
+  const std::vector<dem::LoadedBranch>& branches() const { return branches_; }
+  /// Of the window around each particle, below 1 [-].
+  std::vector<double> porosity() const;
+  /// Fields of the particles that other jobs lack (apps/pile/README.md, Results).
   std::vector<dem::Field> particle_fields() const;
   void write_section(const std::filesystem::path& file) const;
-  void write_contacts(const std::filesystem::path& file) const;
 
 private:
   const FrameInput& frame_;

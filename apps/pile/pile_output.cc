@@ -4,6 +4,7 @@
 #include "apps/run/restart.h"
 #include "dem/error.h"
 #include "dem/io/assembly_fields.h"
+#include "dem/io/assembly_frame.h"
 #include "dem/io/atomic_file.h"
 #include "dem/version.h"
 
@@ -167,8 +168,9 @@ void PileOutput::frame(double time, const dem::Assembly& assembly,
   const PileContinuum continuum({0.5 * case_.assembly.diameter, case_.assembly.height,
                                  height_over_surface * D, w, layer * D},
                                 input);
-  dem::write_particles(frames_.file(0), assembly, coupled.x_0, continuum.particle_fields());
-  dem::write_bonds(frames_.file(1), assembly);
+  dem::write_frame({frames_.file(0), frames_.file(1), frames_.file(5)},
+                   {assembly, coupled.x_0, continuum.branches(), continuum.porosity(),
+                    continuum.particle_fields()});
   const dem::RigidWall& pile = assembly.rigid_walls.front();
   const auto write_pile =
       assembly.mirrors.empty() ? dem::write_revolution : dem::write_half_revolution;
@@ -178,7 +180,6 @@ void PileOutput::frame(double time, const dem::Assembly& assembly,
     far_field_of(coupled).write_vtu(path, dem::program_text());
   });
   continuum.write_section(frames_.file(4));
-  continuum.write_contacts(frames_.file(5));
   const double z_tip = pile.x.z();
   profiles_.add({time, -z_tip - case_.tip_height(), z_tip, w, d_50}, continuum.sums(),
                 shaft_);

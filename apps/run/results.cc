@@ -65,7 +65,7 @@ std::vector<std::string> series_of(const fs::path& folder, const std::string& jo
 {
   if (job == "pile")
     return {"particles", "bonds", "pile", "far_field", "fields", "contacts"};
-  if (job == "sample") return {"particles", "bonds"};
+  if (job == "sample") return {"particles", "bonds", "contacts"};
   if (job != "element" && job != "triaxial" && job != "brazilian") return {};
   const CaseScan scan = case_of(folder);
   const auto value_of = [&](const char* section, const char* key) {
@@ -77,7 +77,7 @@ std::vector<std::string> series_of(const fs::path& folder, const std::string& jo
   };
   const std::string pictures = value_of("Output", "pictures");
   if (pictures.empty() || pictures == "none") return {};
-  std::vector<std::string> series{"particles", "bonds"};
+  std::vector<std::string> series{"particles", "bonds", "contacts"};
   if (job == "triaxial") series.push_back("platens");
   if (job == "brazilian") series.insert(series.end(), {"breaks", "plates"});
   if (value_of("Membrane", "membrane") == "true") series.push_back("membrane");

@@ -4,6 +4,7 @@
 #include "apps/coupled/system_of_case.h"
 #include "apps/element/element_plan.h"
 #include "apps/pile/pile_plan.h"
+#include "apps/run/frames.h"
 #include "apps/run/jobs.h"
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
@@ -12,7 +13,8 @@
 #include "apps/sample/job_of_case.h"
 #include "apps/specimen/specimen.h"
 #include "apps/triaxial/triaxial_plan.h"
-#include "dem/io/assembly_fields.h"
+#include "dem/continuum/particle_stress.h"
+#include "dem/io/assembly_frame.h"
 #include "dem/io/atomic_file.h"
 #include "dem/specimen/forecast.h"
 
@@ -83,7 +85,7 @@ CaseJob job_of(const JobOptions& options)
   return job_of_case(scan_case(read_case_text(file), file.string()), options.set);
 }
 
-/// Particles and bonds as an assembly at rest, for the writers of fields.
+/// Particles, bonds and contacts as an assembly at rest, for the writers of fields.
 dem::Assembly as_assembly(const SpecimenKeys& k, const dem::Sample& sample)
 {
   dem::Assembly assembly;
@@ -91,18 +93,29 @@ dem::Assembly as_assembly(const SpecimenKeys& k, const dem::Sample& sample)
   assembly.cell = sample.packing.cell;
   assembly.material.contact = k.specimen.contact;
   assembly.bonds = dem::make_bonds(assembly.particles, assembly.cell, sample.bonding.pairs);
+  dem::VerletList(dem::activation_gap(k.specimen.contact), 0.0)
+      .rebuild(assembly.particles, assembly.cell, assembly.bonds, assembly.contacts);
   return assembly;
 }
 
-void write_pictures(const std::filesystem::path& folder, const dem::Assembly& assembly)
+/// @param porosity of the core [-]
+void write_pictures(const std::filesystem::path& folder, const dem::Assembly& assembly,
+                    double porosity)
 {
-  std::filesystem::create_directories(folder / "fields");
+  Frames frames(folder, {{"particles", "vtp"}, {"bonds", "vtp"}, {"contacts", "vtp"}});
+  const dem::Particles& p = assembly.particles;
   std::vector<dem::Vec3> x;
-  for (const dem::ParticleState& b : assembly.particles.state) x.push_back(b.x);
-  dem::write_particles(folder / "fields/particles_0000.vtp", assembly, x);
-  dem::Series(folder / "particles.pvd").add(0.0, folder / "fields/particles_0000.vtp");
-  dem::write_bonds(folder / "fields/bonds_0000.vtp", assembly);
-  dem::Series(folder / "bonds.pvd").add(0.0, folder / "fields/bonds_0000.vtp");
+  for (const dem::ParticleState& b : p.state) x.push_back(b.x);
+  const auto branches = dem::loaded_branches(assembly, {});
+  dem::write_frame({frames.file(0), frames.file(1), frames.file(2)},
+                   {assembly,
+                    x,
+                    branches,
+                    assembly.cell.is_periodic()
+                        ? dem::even_porosity(p, assembly.cell.volume())
+                        : std::vector<double>(p.size(), porosity),
+                    {}});
+  frames.add(0.0);
 }
 
 void refuse_sample(const CaseFile& file, const SpecimenKeys& k)
@@ -145,7 +158,7 @@ void make(const JobOptions& options)
     const Provenance made = provenance(options);
     begin_folder(folder, inputs, file, made);
     dem::write_sample(path, sample);
-    write_pictures(folder.path(), as_assembly(k, sample));
+    write_pictures(folder.path(), as_assembly(k, sample), sample.packing.porosity);
     Summary found = summary(k, sample);
     found.json("made by", made.json());
     dem::replace_file(folder.path() / "summary.json", found.object());

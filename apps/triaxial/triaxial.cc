@@ -9,6 +9,7 @@
 #include "apps/triaxial/triaxial_plan.h"
 #include "apps/triaxial/triaxial_summary.h"
 #include "dem/assembly/distribute.h"
+#include "dem/continuum/loaded_branches.h"
 #include "dem/io/state/named_rows.h"
 
 #include <algorithm>
@@ -85,10 +86,8 @@ private:
 
 std::vector<std::string> TriaxialJob::free_keys() const
 {
-  std::vector<std::string> keys{"Loading/strain limit", "Analysis/secant from",
-                                "Analysis/secant to", "Analysis/yield offset"};
-  for (std::size_t k = 0; k < max_stages; ++k) keys.push_back("Loading/" + key_of_stage(k));
-  return keys;
+  return {"Loading/stage N", "Loading/strain limit", "Analysis/secant from",
+          "Analysis/secant to", "Analysis/yield offset"};
 }
 
 std::vector<dem::Outcome> load_outcomes(const dem::State& state, std::size_t n_stages)
@@ -241,6 +240,9 @@ void TriaxialJob::write_fields(bool frame, bool bands)
   const std::vector<dem::Vec3> x = positions();
   const double strain = axial_strain();
   const auto assembly = frame ? dem::gather_on_first_rank(system_->assembly) : std::nullopt;
+  const auto at_walls = frame ? dem::gather_wall_forces(system_->assembly)
+                              : std::vector<dem::WallContactForce>{};
+  const double e = test_->geometry().void_ratio;
   coupling::BandRecord found;
   on_first_rank([&] {
     std::vector<double> R;
@@ -254,7 +256,9 @@ void TriaxialJob::write_fields(bool frame, bool bands)
       found.increment = earlier_->increment(strain);
       output_->record(found, case_.d_50());
     }
-    if (frame) output_->frame(test_->state().time, *assembly, *system_, strains);
+    if (frame)
+      output_->frame(test_->state().time, *assembly, at_walls, *system_, strains,
+                     e / (1.0 + e));
   });
   if (bands) bands_.push_back(found);
   if (earlier_->is_due(strain)) earlier_->add(strain, x);

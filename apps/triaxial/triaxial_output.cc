@@ -2,7 +2,9 @@
 
 #include "apps/run/restart.h"
 #include "apps/triaxial/band_output.h"
+#include "dem/continuum/particle_stress.h"
 #include "dem/io/assembly_fields.h"
+#include "dem/io/assembly_frame.h"
 #include "dem/text.h"
 
 namespace mergel::apps {
@@ -62,7 +64,7 @@ const std::vector<std::string> columns{"time [s]",
 std::vector<Frames::Kind> kinds_of(const TriaxialCase& c)
 {
   std::vector<Frames::Kind> kinds{
-      {"particles", "vtp"}, {"bonds", "vtp"}, {"platens", "vtp"}};
+      {"particles", "vtp"}, {"bonds", "vtp"}, {"platens", "vtp"}, {"contacts", "vtp"}};
   if (c.membrane.is_there) kinds.push_back({"membrane", "vtp"});
   return kinds;
 }
@@ -227,12 +229,15 @@ void TriaxialOutput::record(const coupling::BandRecord& r, double d_50)
 }
 
 void TriaxialOutput::frame(double time, const dem::Assembly& assembly,
+                           const std::vector<dem::WallContactForce>& at_walls,
                            const coupling::CoupledSystem& system,
-                           const coupling::LocalStrains& strains)
+                           const coupling::LocalStrains& strains, double porosity)
 {
   require_in_place();
-  dem::write_particles(frames_.file(0), assembly, system.x_0, fields_of(strains));
-  dem::write_bonds(frames_.file(1), assembly);
+  const auto branches = dem::loaded_branches(assembly, at_walls);
+  dem::write_frame({frames_.file(0), frames_.file(1), frames_.file(3)},
+                   {assembly, system.x_0, branches,
+                    dem::strained_porosity(porosity, strains.total), fields_of(strains)});
   std::vector<dem::Vec3> nodes;
   std::vector<std::array<dem::Index, 3>> triangles;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -245,7 +250,7 @@ void TriaxialOutput::frame(double time, const dem::Assembly& assembly,
   if (system.structures.size() > 2) {
     const auto& membrane =
         dynamic_cast<const coupling::MembraneStructure&>(*system.structures[2].structure);
-    dem::write_surface(frames_.file(3), system.assembly.walls[2].x,
+    dem::write_surface(frames_.file(4), system.assembly.walls[2].x,
                        triangles_of(system.assembly.walls[2].topology.triangles),
                        membrane_fields(membrane.motion()));
   }

@@ -32,10 +32,14 @@ public:
     history_.require_in_place();
     bands_.require_in_place();
   }
-  /// Particles, bonds, platens and membrane at this time [s].
+  /// Particles, bonds, contacts, platens and membrane at this time [s].
   /// @param assembly gathered: all particles
+  /// @param at_walls dem::gather_wall_forces()
+  /// @param porosity of the core before the test, for the stress of the particles [-]
   void frame(double time, const dem::Assembly& assembly,
-             const coupling::CoupledSystem& system, const coupling::LocalStrains& strains);
+             const std::vector<dem::WallContactForce>& at_walls,
+             const coupling::CoupledSystem& system, const coupling::LocalStrains& strains,
+             double porosity);
 
 private:
   dem::History history_, bands_;

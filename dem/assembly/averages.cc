@@ -187,26 +187,6 @@ Mat3 box_stress(const Assembly& assembly, const Vec3& low, const Vec3& high, dou
   return stress_of(virial, volume, assembly.comm);
 }
 
-std::vector<Mat3> particle_stresses(const Assembly& assembly)
-{
-  const Particles& p = assembly.particles;
-  std::vector<Mat3> sum(p.size(), Mat3::Zero()); // [J]
-  visit_branches(assembly, [&](const Pair& q, const Branch& b, const Vec3& F) {
-    const double half_gap = 0.5 * (b.r.norm() - b.L);
-    const Mat3 moment = F * b.n().transpose();
-    sum[q.i] += (p.state[q.i].R + half_gap) * moment;
-    sum[q.j] += (p.state[q.j].R + half_gap) * moment;
-  });
-
-  double solid = 0.0; // [m^3]
-  for (const ParticleState& b : p.state) solid += sphere_mass(b.R, 1.0);
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    const double share = sphere_mass(p.state[i].R, 1.0) / solid * assembly.cell.volume();
-    sum[i] = (0.5 / share * (sum[i] + sum[i].transpose())).eval();
-  }
-  return sum;
-}
-
 Vec3 affine_stiffness(const Assembly& assembly)
 {
   return affine_stiffness(assembly, assembly.cell.volume());

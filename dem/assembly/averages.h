@@ -42,12 +42,6 @@ Mat3 slab_stress(const Assembly& assembly, double z_low, double z_high, double a
 /// `volume` [m^3]: what the box has of the specimen. Walls are left out. Collective.
 Mat3 box_stress(const Assembly& assembly, const Vec3& low, const Vec3& high, double volume);
 
-/// Stress of each particle of a gathered assembly [Pa], tension positive: symmetric part of
-/// Love's sum F (x) (x_c - x_i) over its contacts, F on the particle, divided by its share
-/// v/(1 - n) of the cell, v the sphere volume. The mean weighted with these shares is the
-/// stress of the cell. Walls and mirror images are left out. Not collective.
-std::vector<Mat3> particle_stresses(const Assembly& assembly);
-
 /// Stiffness of the cell along its edges if every particle followed the strain [Pa]:
 /// 1/V sum L^2 [k_n n_a^4 + k_s n_a^2 (1 - n_a^2)] with the bonds' stiffness times 1 - D.
 /// Voigt's upper bound of the stiffness without lateral strain: particles do not follow the

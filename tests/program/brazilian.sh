@@ -19,12 +19,12 @@ run() {
 sound() {
   local file kind
   for file in history.csv summary.json resolved.prm sample.h5; do [ -s "$1/$file" ] || fail "$1/$file is missing"; done
-  for kind in particles bonds breaks plates; do
+  for kind in particles bonds contacts breaks plates; do
     [ "$(compgen -G "$1/fields/${kind}_*.vtp" | wc -l)" -eq "$2" ] && [ "$(grep -c '<DataSet' "$1/$kind.pvd")" -eq "$2" ] ||
       fail "$1: $2 pictures of $kind: $(ls "$1/fields")"
   done
   bounded "$mergel" info "$1" >info || fail "info $1: $(cat info)"
-  grep -q 'finished' info && grep -q "fields  *$((4 * $2)) files, none is cut" info || fail "info $1: $(cat info)"
+  grep -q 'finished' info && grep -q "fields  *$((5 * $2)) files, none is cut" info || fail "info $1: $(cat info)"
   ! grep -qiE '(^|,)-?(nan|inf)' "$1/history.csv" || fail "$1: a number of the history is not finite"
   # Breaks by mode and by zone are all breaks. The index stress is that of the load on a disc of 4.5 x 2.4 mm.
   records "$1" '{ e = abs(c("energy error [-]")); if (e > most) most = e

@@ -37,7 +37,7 @@ same() {
   cmp whole/history.csv "$1/history.csv" || fail "the history of $1 differs"
   diff <(physics whole) <(physics "$1") || fail "the summary of $1 differs"
   diff -r whole/fields "$1/fields" >log || fail "the pictures of $1 differ: $(cat log)"
-  for series in particles bonds breaks plates; do
+  for series in particles bonds contacts breaks plates; do
     cmp "whole/$series.pvd" "$1/$series.pvd" || fail "the series of pictures of $1 differs"
   done
 }

@@ -56,10 +56,10 @@ awk -v c="$(value c UCS)" -v d="$(value d UCS)" 'BEGIN { exit !(d > 1.2 * c && d
   fail "UCS $(value c UCS), with the size effect $(value d UCS)"
 
 # Pictures: the start and the end of each of the five stages, and no more.
-[ "$(ls a/fields | wc -l)" -eq 12 ] && [ "$(grep -c '<DataSet' a/particles.pvd)" -eq 6 ] &&
-  [ "$(grep -c '<DataSet' a/bonds.pvd)" -eq 6 ] || fail "six pictures: $(ls a/fields)"
-for field in radius damage displacement stress; do
-  grep -aq "Name=\"$field\"" a/fields/particles_0005.vtp || fail "no $field in the picture of the particles"
+[ "$(ls a/fields | wc -l)" -eq 18 ] && [ "$(grep -c '<DataSet' a/particles.pvd)" -eq 6 ] &&
+  [ "$(grep -c '<DataSet' a/bonds.pvd)" -eq 6 ] && [ "$(grep -c '<DataSet' a/contacts.pvd)" -eq 6 ] || fail "six pictures: $(ls a/fields)"
+for field in radius damage displacement "stress [Pa]" "strain rate [1/s]" "coordination [-]"; do
+  grep -aqF "Name=\"$field\"" a/fields/particles_0005.vtp || fail "no $field in the picture of the particles"
 done
 ! grep -aq 'Name="strength"' a/fields/particles_0005.vtp || fail "strengths are shown that do not vary"
 # 0.7 % in steps of 0.2 %, the start and the end.

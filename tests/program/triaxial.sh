@@ -42,7 +42,7 @@ sound() {
     END { print "'"$1"': " NR - 1 " records, energy error " most ", errors of the interface " other
       exit pulls || !(NR > 3 && most < 1e-3 && other < 1e-10) }' || fail "$1: energy, interface or a platen that pulls"
 }
-all="particles bonds platens membrane"
+all="particles bonds contacts platens membrane"
 
 run "isotropic to p = 0.5 MPa" "triaxial at 0.8 MPa to axial strain = 0.3 %" "unload-reload to q = 0.5 MPa" \
   "resume to axial strain = 0.6 %" a "${fine[@]}" || fail "the run: $(tail -5 a.log)"
@@ -89,7 +89,7 @@ grep -aq 'Name="shear strain of the increment \[-\]"' a/fields/particles_0005.vt
 
 # Unconfined: no membrane, and nothing of one in the results.
 run "compression to axial strain = 1 %" "" "" "" u --set "Membrane/membrane=false" || fail "unconfined: $(tail -5 u.log)"
-sound u 2 "particles bonds platens"
+sound u 2 "particles bonds contacts platens"
 [ ! -e u/membrane.pvd ] || fail "pictures of a membrane that is not there"
 records u "$slope"'
   { if (q > UCS) UCS = q
@@ -133,7 +133,7 @@ cmp <(case_of plain) <(case_of again) || fail "the resolved case of a resolved c
 # Pictures by strain; none.
 run "compression to axial strain = 0.1 %" "" "" "" pictures --set "Membrane/membrane=false" --set "Output/pictures=strain" \
   --set "Output/picture every=0.0003" || fail "pictures by strain: $(tail -5 pictures.log)"
-sound pictures 5 "particles bonds platens"
+sound pictures 5 "particles bonds contacts platens"
 run "compression to axial strain = 0.1 %" "" "" "" bare --set "Membrane/membrane=false" --set "Output/pictures=none" ||
   fail "no pictures: $(tail -5 bare.log)"
 [ ! -e bare/fields ] && [ ! -e bare/particles.pvd ] || fail "pictures in spite of pictures = none"

@@ -51,7 +51,7 @@ same() {
   cmp whole/localisation.csv "$1/localisation.csv" || fail "the bands of $1 differ"
   diff <(physics whole) <(physics "$1") || fail "the summary of $1 differs"
   diff -r whole/fields "$1/fields" >log || fail "the pictures of $1 differ: $(cat log)"
-  for series in particles bonds platens membrane; do
+  for series in particles bonds contacts platens membrane; do
     cmp "whole/$series.pvd" "$1/$series.pvd" || fail "the series of pictures of $1 differs"
   done
 }

@@ -45,6 +45,7 @@ void write_element_run(const fs::path& folder, const std::string& pictures)
   if (pictures == "none") return;
   write_series(folder, "particles");
   write_series(folder, "bonds");
+  write_series(folder, "contacts");
 }
 
 /// What a finished triaxial run leaves. @param membrane "true" or "false"
@@ -56,7 +57,8 @@ void write_triaxial_run(const fs::path& folder, const std::string& membrane)
             "subsection Output\n set pictures = stages\nend\n");
   for (const char* name : {"history.csv", "summary.json", "sample.h5"})
     write(folder / name);
-  for (const char* name : {"particles", "bonds", "platens"}) write_series(folder, name);
+  for (const char* name : {"particles", "bonds", "contacts", "platens"})
+    write_series(folder, name);
   if (membrane == "true") write_series(folder, "membrane");
 }
 
@@ -68,7 +70,7 @@ void write_brazilian_run(const fs::path& folder)
         "subsection Output\n set pictures = ends\nend\n");
   for (const char* name : {"history.csv", "summary.json", "sample.h5"})
     write(folder / name);
-  for (const char* name : {"particles", "bonds", "breaks", "plates"})
+  for (const char* name : {"particles", "bonds", "contacts", "breaks", "plates"})
     write_series(folder, name);
 }
 
@@ -76,8 +78,9 @@ void write_brazilian_run(const fs::path& folder)
 
 TEST_CASE("A finished run lacks every file that is removed from it", "[unit][apps]")
 {
-  for (const char* removed : {"resolved.prm", "history.csv", "particles.pvd", "bonds.pvd",
-                              "fields/particles_0000.vtp", "fields/bonds_0000.vtp"}) {
+  for (const char* removed :
+       {"resolved.prm", "history.csv", "particles.pvd", "bonds.pvd", "contacts.pvd",
+        "fields/particles_0000.vtp", "fields/bonds_0000.vtp"}) {
     const TemporaryFolder folder;
     write_element_run(folder.path, "stages");
     REQUIRE(job_of(folder.path) == "element");
@@ -131,7 +134,7 @@ TEST_CASE("Series are owed by the jobs that write them, at the end", "[unit][app
         Names{"particles.pvd", "bonds.pvd", "pile.pvd", "far_field.pvd", "fields.pvd",
               "contacts.pvd"});
   CHECK(missing_results(folder.path, "sample", Extent::finished) ==
-        Names{"sample.h5", "particles.pvd", "bonds.pvd"});
+        Names{"sample.h5", "particles.pvd", "bonds.pvd", "contacts.pvd"});
   write(folder.path / "particles.pvd", "no series");
   CHECK(missing_results(folder.path, "element", Extent::begun) == Names{"particles.pvd"});
 }
