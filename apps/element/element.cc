@@ -40,7 +40,7 @@ public:
   CheckpointScheduler::Position position() const override
   {
     const dem::ElementState& s = test_->state();
-    return {s.n_steps, s.time, "stage " + std::to_string(s.stage + 1)};
+    return {s.n_steps, s.time, "stage " + label().name()};
   }
   void save(dem::State& state) const override;
   void require_files() const override
@@ -54,8 +54,9 @@ private:
   {
     return !outcomes_.empty() && outcomes_.back() == dem::Outcome::unstable;
   }
-  dem::Outcome load_stage(const std::string& name, bool is_under_way,
-                          const std::function<void()>& after_step);
+  /// Of the stage that was begun last.
+  const StageLabel& label() const { return case_.stage_labels[test_->state().stage]; }
+  dem::Outcome load_stage(bool is_under_way, const std::function<void()>& after_step);
   void report_step() const
   {
     const dem::ElementState& s = test_->state();
@@ -97,11 +98,10 @@ void ElementJob::check_restart(const CaseFile& file, const Restart& restart) con
   earlier.critical_text.clear(); // those runs may be gone; only the stages are needed
   apps::complete(earlier_file, earlier);
   const auto n = load_outcomes(restart.checkpoint.state, earlier.stages.size()).size();
-  if (case_.stages.size() < n ||
-      !std::equal(earlier.stages.begin(), earlier.stages.begin() + n, case_.stages.begin()))
+  if (!may_go_on(earlier.stages, case_.stages, n))
     file.refuse("Loading", change->key,
                 "was \"" + change->was + "\", and the checkpoint is in stage " +
-                    std::to_string(n) +
+                    earlier.stage_labels[n - 1].name() +
                     " of the test: only later stages may change. Restore it, and add a "
                     "stage such as `resume to axial strain = 5 %` to go further; or choose "
                     "an older checkpoint");
@@ -138,7 +138,7 @@ std::string ElementJob::what_is_done(const Restart& restart) const
     break;
   }
   if (is_analysed_anew) return "";
-  return "stage " + std::to_string(n) +
+  return "stage " + case_.stage_labels[n - 1].name() +
          " ended the test: " + dem::sentence_of(outcomes.back()) +
          ". It cannot be loaded further" +
          (outcomes.back() == Outcome::strain_limit_reached
@@ -183,7 +183,7 @@ std::string ElementJob::record()
 {
   const bool was_raised = test_->state().alarm.is_raised();
   records_.push_back(test_->record());
-  on_first_rank([&] { history_->add(records_.back()); });
+  on_first_rank([&] { history_->add(records_.back(), label()); });
   const dem::EnergyAlarm& alarm = test_->state().alarm;
   return alarm.is_raised() && !was_raised ? alarm_text(alarm) : "";
 }
@@ -199,12 +199,12 @@ std::string words(const dem::ElementRecord& r)
 
 /// Run one stage to its end, from its start or, if `is_under_way`, from the present state.
 /// Adds its records, the first at its start.
-dem::Outcome ElementJob::load_stage(const std::string& name, bool is_under_way,
+dem::Outcome ElementJob::load_stage(bool is_under_way,
                                     const std::function<void()>& after_step)
 {
   std::string alarm;
   if (!is_under_way) alarm = record();
-  Progress progress("stage " + std::to_string(test_->state().stage + 1) + ", " + name);
+  Progress progress("stage " + label().name() + ", " + label().text);
   progress.say(alarm);
   for (;;) {
     const bool approached = test_->is_approaching();
@@ -234,8 +234,7 @@ void ElementJob::run(const std::function<void()>& after_step)
       test_->begin_stage(next);
       outcomes_.push_back(dem::Outcome::unstable);
     }
-    const std::string name = name_of(case_.stages[outcomes_.size() - 1]);
-    outcomes_.back() = load_stage(name, resumes, after_step);
+    outcomes_.back() = load_stage(resumes, after_step);
   }
 }
 
@@ -254,7 +253,7 @@ ElementSummary summary_of(const ElementCase& c, const dem::ElementState& state,
                           const std::vector<dem::ElementRecord>& records, double seconds)
 {
   ElementSummary s;
-  s.stages = analyse(c.stages, c.analysis, outcomes, points_of(records));
+  s.stages = analyse(c.stages, c.stage_labels, c.analysis, outcomes, points_of(records));
   for (const dem::ElementRecord& r : records) {
     s.worst_energy_error = std::max(s.worst_energy_error, std::abs(r.energy_error));
     s.largest_inertial_number = std::max(s.largest_inertial_number, r.inertial_number);

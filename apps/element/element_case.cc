@@ -180,6 +180,7 @@ void complete(CaseFile& file, ElementCase& c)
 
   complete(file, c.checkpoints);
   c.stages = stages_of(file, c.stage_texts);
+  c.stage_labels = labels_of(c.stage_texts);
   if (c.specimen.is_granular())
     complete_granular(file, c);
   else

@@ -30,6 +30,7 @@ struct ElementCase : dem::ElementControl {
 
   // Loading
   std::vector<std::string> stage_texts;
+  std::vector<StageLabel> stage_labels; ///< of all stages; set by complete()
 
   // Analysis
   AnalysisKeys analysis;

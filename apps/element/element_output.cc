@@ -16,6 +16,7 @@ namespace {
 const std::vector<std::string> columns{
     "time [s]",
     "stage [-]",
+    "part [-]",
     "axial strain [-]",
     "lateral strain [-]",
     "volumetric strain [-]",
@@ -112,13 +113,14 @@ std::string ElementHistory::check(const std::filesystem::path& file,
   return report_on_history(file, mark_in(state));
 }
 
-void ElementHistory::add(const dem::ElementRecord& r)
+void ElementHistory::add(const dem::ElementRecord& r, const StageLabel& stage)
 {
   const dem::CellAverages& a = r.averages;
   const dem::EnergyBalance& e = r.balance;
   const dem::Mat3 &b = a.bond_fabric, &k = a.contact_fabric;
   history_.add({r.time,
-                count(r.stage + 1),
+                count(stage.number),
+                static_cast<double>(stage.part),
                 r.whole.axial_strain(),
                 r.whole.lateral_strain(),
                 r.whole.volumetric_strain(),

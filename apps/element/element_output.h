@@ -29,7 +29,7 @@ public:
   /// @throws InputError when `file` does not begin with the bytes that `state` records
   static std::string check(const std::filesystem::path& file, const dem::State& state);
 
-  void add(const dem::ElementRecord& r);
+  void add(const dem::ElementRecord& r, const StageLabel& stage);
   /// @throws NumericalError when another program has touched the file
   void require_in_place() const { history_.require_in_place(); }
 

@@ -8,19 +8,20 @@
 namespace mergel::apps {
 
 void remark_on_stages(Remarks& remarks, const std::vector<dem::LoadingStage>& stages,
-                      double limit)
+                      const std::vector<StageLabel>& labels, double limit)
 {
-  for (const dem::LoadingStage& stage : stages)
-    if (!stage.returns && dem::is_strain(stage.quantity))
-      expect_at_most(remarks, "strain of the stage `" + name_of(stage) + "`",
-                     std::abs(stage.target), limit,
+  for (std::size_t k = 0; k < stages.size(); ++k)
+    if (!stages[k].returns && dem::is_strain(stages[k].quantity))
+      expect_at_most(remarks,
+                     "strain of stage " + labels[k].name() + ", `" + labels[k].text + "`",
+                     std::abs(stages[k].target), limit,
                      "the test ends before, at `Loading/strain limit`");
 }
 
 Remarks unusual(const ElementCase& c)
 {
   Remarks remarks;
-  remark_on_stages(remarks, c.stages, c.strain_limit);
+  remark_on_stages(remarks, c.stages, c.stage_labels, c.strain_limit);
   expect_at_most(remarks, "Loading/inertial number", c.inertial_number, quasi_static,
                  "the test is not quasi-static");
   remark_on_specimen(remarks, c.specimen);

@@ -12,8 +12,9 @@ Remarks unusual(const ElementCase& c);
 Plan plan_of(const CaseFile& file, const ElementCase& c);
 
 /// Stages whose strain is beyond the limit of the test.
+/// @param labels of all stages
 void remark_on_stages(Remarks& remarks, const std::vector<dem::LoadingStage>& stages,
-                      double limit);
+                      const std::vector<StageLabel>& labels, double limit);
 
 /// Strain that a test covers [-], every stage counted: strains to their targets, stresses by a
 /// modulus. @param modulus of the specimen [Pa] @param limit of a strain [-]

@@ -290,29 +290,35 @@ void check_granular_stages(const CaseFile& file, const std::vector<std::string>&
             "at 0.1 MPa`");
 }
 
-std::string name_of(const LoadingStage& stage)
+std::string StageLabel::name() const
 {
-  std::string text = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) {
-                       return k.second == stage.kind;
-                     })->first;
-  if (stage.kind == PathKind::radial) text += " dq/dp = " + dem::shortest(stage.slope);
-  if (stage.kind == PathKind::axes)
-    for (std::size_t a = 0; a < 3; ++a) {
-      using Kind = dem::AxisRule::Kind;
-      const dem::AxisRule& r = stage.axes[a];
-      text += (a > 0 ? ", " : " ") + std::string(1, "xyz"[a]) + " = " +
-              (r.kind == Kind::strain_controlled ? "strain-controlled"
-               : r.kind == Kind::fixed           ? "fixed"
-                                                 : with_unit(r.stress, "Pa", "MPa"));
+  constexpr std::array<const char*, 3> letters{"", "a", "b"};
+  return std::to_string(number) + letters.at(static_cast<std::size_t>(part));
+}
+
+std::vector<StageLabel> labels_of(const std::vector<std::string>& texts)
+{
+  std::vector<StageLabel> labels;
+  for (std::size_t k = 0; k < texts.size() && !texts[k].empty(); ++k)
+    if (read_stages(texts[k]).size() == 1) {
+      labels.push_back({k + 1, 0, texts[k]});
+    } else {
+      labels.push_back({k + 1, 1, texts[k] + ", unloading"});
+      labels.push_back({k + 1, 2, texts[k] + ", reloading"});
     }
-  if (stage.has_lateral) text += " at " + with_unit(stage.lateral, "Pa", "MPa");
-  if (stage.returns) return text + " to where it was unloaded";
-  text += " to " + std::find_if(quantities.begin(), quantities.end(), [&](const auto& q) {
-                     return q.second == stage.quantity;
-                   })->first;
-  return text + " = " +
-         (dem::is_strain(stage.quantity) ? dem::shortest(100.0 * stage.target) + " %"
-                                         : with_unit(stage.target, "Pa", "MPa"));
+  return labels;
+}
+
+bool may_go_on(const std::vector<LoadingStage>& earlier,
+               const std::vector<LoadingStage>& now, std::size_t n_begun)
+{
+  const auto returns = [](const std::vector<LoadingStage>& stages, std::size_t k) {
+    return k < stages.size() && stages[k].returns;
+  };
+  return n_begun <= std::min(earlier.size(), now.size()) &&
+         returns(earlier, n_begun) == returns(now, n_begun) &&
+         std::equal(earlier.begin(), earlier.begin() + static_cast<std::ptrdiff_t>(n_begun),
+                    now.begin());
 }
 
 } // namespace mergel::apps

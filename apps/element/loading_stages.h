@@ -37,7 +37,22 @@ std::vector<dem::LoadingStage> stages_of(const CaseFile& file,
 /// @throws InputError naming file, line and key
 void check_granular_stages(const CaseFile& file, const std::vector<std::string>& texts);
 
-/// "isotropic to p = 1 MPa"; for logs.
-std::string name_of(const dem::LoadingStage& stage);
+/// A loading stage as the case has it. `unload-reload` is one stage of the case and two of the
+/// test, its parts.
+struct StageLabel {
+  std::size_t number = 1; ///< of its key, from 1
+  int part = 0;           ///< 0 the whole of it, 1 its unloading, 2 its reloading
+  std::string text;       ///< as the case says it, "unload-reload to q = 1 MPa, unloading"
+
+  std::string name() const; ///< "3"; "3a" and "3b" for the parts
+};
+
+/// One for each loading stage of these texts, in their order. @pre stages_of() has read them
+std::vector<StageLabel> labels_of(const std::vector<std::string>& texts);
+
+/// Whether a test in which `n_begun` stages of `earlier` were begun may go on with `now`: these
+/// are the same, and so is the reloading where only the unloading of a stage was begun.
+bool may_go_on(const std::vector<dem::LoadingStage>& earlier,
+               const std::vector<dem::LoadingStage>& now, std::size_t n_begun);
 
 } // namespace mergel::apps

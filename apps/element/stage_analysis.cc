@@ -1,6 +1,5 @@
 #include "apps/element/stage_analysis.h"
 
-#include "apps/element/loading_stages.h"
 #include "dem/element/element_analysis.h"
 #include "dem/text.h"
 
@@ -228,6 +227,7 @@ void read_path(std::vector<Finding>& found, const AnalysisKeys& keys,
 } // namespace
 
 std::vector<StageResult> analyse(const std::vector<dem::LoadingStage>& stages,
+                                 const std::vector<StageLabel>& labels,
                                  const AnalysisKeys& keys,
                                  const std::vector<dem::Outcome>& outcomes,
                                  const std::vector<StagePoint>& points)
@@ -235,7 +235,8 @@ std::vector<StageResult> analyse(const std::vector<dem::LoadingStage>& stages,
   std::vector<StageResult> results;
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     const dem::LoadingStage& stage = stages[k];
-    StageResult result{name_of(stage), outcomes[k], broken_in_approach(points, k), {}};
+    StageResult result{
+        labels[k].name(), labels[k].text, outcomes[k], broken_in_approach(points, k), {}};
     if (stage.kind == dem::PathKind::resume) {
       read_resumed(result.findings, points, k);
     } else {
@@ -243,7 +244,7 @@ std::vector<StageResult> analyse(const std::vector<dem::LoadingStage>& stages,
       while (last + 1 < outcomes.size() && stages[last + 1].kind == dem::PathKind::resume)
         ++last;
       if (last > k)
-        result.name += ", analysed with the stages up to " + std::to_string(last + 1);
+        result.name += ", analysed with the stages up to " + labels[last].name();
       const Backbone way(points, k, last);
       if (!way.is_empty()) read_path(result.findings, keys, stage, way);
     }
@@ -259,8 +260,9 @@ std::string json_of(const std::vector<StageResult>& stages)
   std::string text = "[";
   const char* comma = "\n";
   for (const StageResult& stage : stages) {
-    text += std::string(comma) + "    {\n      \"stage\": \"" + stage.name +
-            "\",\n      \"outcome\": \"" + dem::sentence_of(stage.outcome) + "\"";
+    text += std::string(comma) + "    {\n      \"number\": \"" + stage.number +
+            "\",\n      \"stage\": \"" + stage.name + "\",\n      \"outcome\": \"" +
+            dem::sentence_of(stage.outcome) + "\"";
     if (stage.broken_in_approach)
       text += ",\n      \"bonds broken in the approach [-]\": " +
               std::to_string(*stage.broken_in_approach);
@@ -283,9 +285,8 @@ void summarise(Summary& summary, const std::vector<StageResult>& stages,
   summary.number("yield offset [-]", keys.yield_offset);
   std::ostream& out = summary.closing;
   out.precision(4);
-  for (std::size_t k = 0; k < stages.size(); ++k) {
-    const StageResult& stage = stages[k];
-    out << "stage " << k + 1 << ", " << stage.name << ": "
+  for (const StageResult& stage : stages) {
+    out << "stage " << stage.number << ", " << stage.name << ": "
         << dem::sentence_of(stage.outcome);
     for (const Finding& f : stage.findings) {
       const bool is_stress = f.unit == "Pa";
@@ -296,7 +297,7 @@ void summarise(Summary& summary, const std::vector<StageResult>& stages,
     }
     out << '\n';
     if (stage.broken_in_approach.value_or(0) > 0)
-      out << "stage " << k + 1 << ": " << *stage.broken_in_approach
+      out << "stage " << stage.number << ": " << *stage.broken_in_approach
           << " bonds broke in the approach to its stress, before its readings\n";
   }
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/case/case_file.h"
+#include "apps/element/loading_stages.h"
 #include "apps/run/summary.h"
 #include "dem/element/element_test.h"
 
@@ -40,7 +41,7 @@ struct Finding {
 
 /// Outcome and results of one stage.
 struct StageResult {
-  std::string name;
+  std::string number, name; ///< "3a"; as the case says it
   dem::Outcome outcome = dem::Outcome::goes_on;
   std::optional<std::size_t> broken_in_approach; ///< bonds; none without an approach
   std::vector<Finding> findings;
@@ -48,8 +49,10 @@ struct StageResult {
 
 /// Results of each stage that was begun. A stage that others resume is analysed with them.
 /// @param stages   of the test; those without an outcome were not begun
+/// @param labels   of all stages
 /// @param points   of all records of the stages that were begun, in order
 std::vector<StageResult> analyse(const std::vector<dem::LoadingStage>& stages,
+                                 const std::vector<StageLabel>& labels,
                                  const AnalysisKeys& keys,
                                  const std::vector<dem::Outcome>& outcomes,
                                  const std::vector<StagePoint>& points);

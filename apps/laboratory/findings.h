@@ -22,7 +22,8 @@ private:
 
 struct RunFindings {
   Findings whole;
-  std::vector<Findings> stages; ///< as the history numbers them, from 0
+  /// As the history numbers them, from 0; of an unload-reload those of its unloading.
+  std::vector<Findings> stages;
 };
 
 /// None without a summary.json: a run that has not finished.

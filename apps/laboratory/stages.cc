@@ -3,8 +3,10 @@
 #include "dem/error.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace mergel::apps {
@@ -51,9 +53,47 @@ std::vector<CountedStrain> counted_in(const dem::Table& history)
   return strains;
 }
 
-bool is_of(const Stages& stages, double stage)
+/// Numbers of stage and part at each record; the part is 0 where the history has no such column.
+struct StageColumns {
+  const std::vector<double>& stage;
+  std::vector<double> part;
+
+  explicit StageColumns(const dem::Table& history)
+      : stage(history.column("stage", "-")),
+        part(history.has("part") ? history.column("part", "-")
+                                 : std::vector<double>(stage.size(), 0.0))
+  {
+  }
+  /// @param which part; 0: any
+  bool is(std::size_t row, int number, int which) const
+  {
+    return stage[row] == number && (which == 0 || part[row] == which);
+  }
+  bool has(int number, int which) const
+  {
+    for (std::size_t row = 0; row < stage.size(); ++row)
+      if (is(row, number, which)) return true;
+    return false;
+  }
+  bool is_of(std::size_t row, const Stages& s) const
+  {
+    const bool has_begun =
+        stage[row] > s.first || (stage[row] == s.first && part[row] >= s.first_part);
+    const bool is_over = stage[row] > s.last || (stage[row] == s.last && s.last_part > 0 &&
+                                                 part[row] > s.last_part);
+    return has_begun && (s.last == 0 || !is_over);
+  }
+};
+
+/// Read "3" or "3a" from the start of the text, and take it off. @return whether it is there
+bool take_stage(std::string_view& text, int& number, int& part)
 {
-  return stage >= stages.first && (stages.last == 0 || stage <= stages.last);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || number < 1) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  part = text.starts_with('a') ? 1 : text.starts_with('b') ? 2 : 0;
+  if (part > 0) text.remove_prefix(1);
+  return true;
 }
 
 } // namespace
@@ -69,32 +109,50 @@ bool is_triaxial_history(const dem::Table& history)
   return history.has("cell pressure") && history.has(volume_of_middle);
 }
 
+std::string name_of_stage(int number, int part)
+{
+  return std::to_string(number) + (part == 1 ? "a" : part == 2 ? "b" : "");
+}
+
 Stages stages_of(const std::string& text)
 {
-  Stages stages;
-  char rest = 0;
-  const int n = std::sscanf(text.c_str(), "%d-%d%c", &stages.first, &stages.last, &rest);
-  const bool is_one = n == 1 && text.find_first_not_of("0123456789") == std::string::npos;
-  const bool is_range = n == 2 && stages.last >= stages.first;
+  Stages s;
+  std::string_view rest = text;
+  bool is_read = take_stage(rest, s.first, s.first_part);
+  if (is_read && rest.starts_with('-')) {
+    rest.remove_prefix(1);
+    is_read = take_stage(rest, s.last, s.last_part) &&
+              (s.last > s.first ||
+               (s.last == s.first && (s.last_part == 0 || s.last_part >= s.first_part)));
+  }
   require(
-      (is_one || is_range) && stages.first >= 1,
+      is_read && rest.empty(),
       "--stage " + text +
           ": must be the number of a stage, from which on to draw, or the first and the "
-          "last of several: 2 or 2-3.");
-  return stages;
+          "last of several: 2 or 2-3; 3a and 3b are the unloading and the reloading of "
+          "stage 3.");
+  return s;
 }
 
 dem::Table from_stages(const dem::Table& history, const Stages& stages)
 {
   if (stages.is_all()) return history;
-  const std::vector<double>& stage = history.column("stage", "-");
-  const auto last = std::find(stage.rbegin(), stage.rend(), stages.first);
+  const StageColumns columns(history);
+  const std::vector<double>& stage = columns.stage;
   const double longest = *std::max_element(stage.begin(), stage.end());
-  require(last != stage.rend(), history.file.string() + ": no record of stage " +
-                                    std::to_string(stages.first) + "; the last is " +
-                                    std::to_string(std::lround(longest)) + ".");
+  const auto require_stage = [&](int number, int part) {
+    require(columns.has(number, part),
+            history.file.string() + ": no record of stage " + name_of_stage(number, part) +
+                (columns.has(number, 0)
+                     ? ", but of stage " + std::to_string(number) +
+                           ": a and b are the parts of an unload-reload."
+                     : "; the last is " + std::to_string(std::lround(longest)) + "."));
+  };
+  require_stage(stages.first, stages.first_part);
+  if (stages.last_part > 0) require_stage(stages.last, stages.last_part);
   // During the approach to its stress a stage counts from another start.
-  const auto anchor = static_cast<std::size_t>(stage.rend() - last - 1);
+  std::size_t anchor = stage.size() - 1;
+  while (!columns.is(anchor, stages.first, stages.first_part)) --anchor;
   const std::vector<CountedStrain> strains = counted_in(history);
   const auto counts_as_anchor = [&](std::size_t row) {
     return std::all_of(strains.begin(), strains.end(), [&](const CountedStrain& strain) {
@@ -103,7 +161,7 @@ dem::Table from_stages(const dem::Table& history, const Stages& stages)
     });
   };
   const auto is_drawn = [&](std::size_t row) {
-    return is_of(stages, stage[row]) &&
+    return columns.is_of(row, stages) &&
            (stage[row] > stages.first || counts_as_anchor(row));
   };
   // A strain without one of its own for each stage counts from the record at which the axial

@@ -21,21 +21,26 @@ bool is_element_history(const dem::Table& history);
 /// Whether this is the history of a triaxial test.
 bool is_triaxial_history(const dem::Table& history);
 
-/// Which stages are drawn, counted from 1.
+/// Which stages are drawn, counted from 1 as in the case.
 struct Stages {
   int first = 0; ///< 0: all, with the strains of the whole test
   int last = 0;  ///< 0: to the end of the test
+  /// Of an unload-reload: 1 from (or up to) its unloading, 2 its reloading; 0 the whole stage.
+  int first_part = 0, last_part = 0;
   bool is_all() const { return first == 0; }
 };
 
-/// "2": from stage 2 on; "2-3": stages 2 and 3.
+/// "3", or "3a" and "3b" for the parts of an unload-reload.
+std::string name_of_stage(int number, int part);
+
+/// "2": from stage 2 on; "2-3": stages 2 and 3; "3a", "3b", "2-3a": the same with parts.
 /// @throws InputError naming the text
 Stages stages_of(const std::string& text);
 
 /// The records of these stages. "axial strain" and "volumetric strain", and strains "of the
 /// middle third", count from where the strain of the first of them counts; the approach to
 /// the stress of that stage is left out. "... of the stage" stay as they are.
-/// @throws InputError naming the file when it holds no such stage
+/// @throws InputError naming the file when it holds no such stage, or no such part
 dem::Table from_stages(const dem::Table& history, const Stages& stages);
 
 } // namespace mergel::apps

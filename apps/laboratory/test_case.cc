@@ -13,7 +13,6 @@ TestCase test_case_of(const std::string& text, const std::string& name)
   for (const CaseEntry& e : scan.entries) {
     if (e.section != "Loading" || !e.key.starts_with("stage ") || e.value.empty()) continue;
     result.stages.push_back(e.value);
-    if (e.value.starts_with("unload-reload")) result.stages.push_back(e.value);
   }
   std::sort(scan.entries.begin(), scan.entries.end(),
             [](const CaseEntry& a, const CaseEntry& b) {

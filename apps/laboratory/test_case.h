@@ -8,7 +8,7 @@
 namespace mergel::apps {
 
 struct TestCase {
-  /// The loading stages as the history numbers them: `unload-reload` is two.
+  /// The loading stages, one for each key, as the history numbers them.
   std::vector<std::string> stages;
   /// The keys named `seed`, "Section/seed=1". Runs with other seeds and all other keys alike
   /// are realisations of one test.

@@ -246,6 +246,15 @@ TestReading reading_of(const dem::Table& history, const TestCase& test_case,
       std::min(static_cast<std::size_t>(std::max(begun, 0.0)), test_case.stages.size());
   require(n > 0, history.file.string() + ": holds no stage of its resolved.prm.");
 
+  const bool has_loop =
+      std::any_of(test_case.stages.begin(), test_case.stages.end(),
+                  [](const std::string& s) { return kind_of(s) == "unload-reload"; });
+  require(
+      !has_loop || history.has("part"),
+      history.file.string() +
+          ": has no column 'part [-]': an earlier version of mergel has written it, "
+          "which counts an unload-reload as two stages. Repeat the run, or leave it out.");
+
   TestReading r;
   r.test_case = test_case;
   const Span span = choose(test_case.stages, n);

@@ -40,7 +40,7 @@ std::vector<NamedLocalisation> localisations(const coupling::BandRecord& r)
 
 std::vector<std::string> band_headings()
 {
-  std::vector<std::string> headings{"time [s]", "stage [-]", "axial strain [-]",
+  std::vector<std::string> headings{"time [s]", "stage [-]", "part [-]", "axial strain [-]",
                                     "increment of the axial strain [-]"};
   const coupling::BandRecord any;
   for (const auto& [name, found] : localisations(any))
@@ -49,10 +49,11 @@ std::vector<std::string> band_headings()
   return headings;
 }
 
-std::vector<double> band_line(const coupling::BandRecord& r, double d_50)
+std::vector<double> band_line(const coupling::BandRecord& r, double d_50,
+                              const StageLabel& stage)
 {
-  std::vector<double> line{r.time, static_cast<double>(r.stage + 1), r.axial_strain,
-                           r.increment};
+  std::vector<double> line{r.time, static_cast<double>(stage.number),
+                           static_cast<double>(stage.part), r.axial_strain, r.increment};
   for (const auto& [name, found] : localisations(r))
     for (const BandColumn& c : band_columns(found, d_50)) line.push_back(c.value);
   return line;

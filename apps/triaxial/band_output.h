@@ -1,6 +1,7 @@
 /// Columns of localisation.csv: the bands of a triaxial test.
 #pragma once
 
+#include "apps/element/loading_stages.h"
 #include "coupling/triaxial/specimen_bands.h"
 
 #include <string>
@@ -25,6 +26,7 @@ std::vector<NamedLocalisation> localisations(const coupling::BandRecord& record)
 /// Headings of localisation.csv, "shear strain: angle [degree]" and so on.
 std::vector<std::string> band_headings();
 /// One line of it. @param d_50 [m]
-std::vector<double> band_line(const coupling::BandRecord& record, double d_50);
+std::vector<double> band_line(const coupling::BandRecord& record, double d_50,
+                              const StageLabel& stage);
 
 } // namespace mergel::apps

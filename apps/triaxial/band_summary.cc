@@ -135,7 +135,8 @@ std::optional<MobilisedAngles> angles_at_end(const std::vector<TriaxialPoint>& p
 }
 
 void summarise_bands(Summary& summary, const std::vector<coupling::BandRecord>& bands,
-                     const std::vector<TriaxialPoint>& points, double d_50)
+                     const std::vector<TriaxialPoint>& points,
+                     const std::vector<StageLabel>& labels, double d_50)
 {
   std::string text = "[";
   const char* comma = "\n";
@@ -146,13 +147,14 @@ void summarise_bands(Summary& summary, const std::vector<coupling::BandRecord>& 
     if (k + 1 < bands.size() && bands[k + 1].stage == r.stage) continue;
     const At at_peak{"at the peak", angles_at_peak(points, r.stage)},
         at_end{"at the end", angles_at_end(points, r.stage, r.increment)};
+    const std::string number = labels[r.stage].name();
     text +=
-        std::string(comma) + "    {\n      \"stage\": " + std::to_string(r.stage + 1) +
-        ",\n      \"axial strain [-]\": " + dem::shortest(r.axial_strain) +
+        std::string(comma) + "    {\n      \"number\": \"" + number +
+        "\",\n      \"axial strain [-]\": " + dem::shortest(r.axial_strain) +
         ",\n      \"increment of the axial strain [-]\": " + dem::shortest(r.increment) +
         json_of(at_peak) + json_of(at_end) + json_of(r, d_50) + "\n    }";
     comma = ",\n";
-    out << "stage " << r.stage + 1 << ", shear strain: ";
+    out << "stage " << number << ", shear strain: ";
     say(out, "sheared", r.shear, d_50);
     out << "  in the last " << 100.0 * r.increment << " % of axial strain: ";
     say(out, "sheared", r.shear_increment, d_50);

@@ -27,8 +27,9 @@ std::optional<MobilisedAngles> angles_at_end(const std::vector<TriaxialPoint>& p
                                              std::size_t stage, double increment);
 
 /// Add "localisation" to summary.json, and lines for each stage that has a record to the closing
-/// text. @param d_50 [m]
+/// text. @param labels of all stages @param d_50 [m]
 void summarise_bands(Summary& summary, const std::vector<coupling::BandRecord>& bands,
-                     const std::vector<TriaxialPoint>& points, double d_50);
+                     const std::vector<TriaxialPoint>& points,
+                     const std::vector<StageLabel>& labels, double d_50);
 
 } // namespace mergel::apps

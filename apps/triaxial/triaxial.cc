@@ -42,8 +42,7 @@ public:
   void run(const std::function<void()>& after_step) override;
   CheckpointScheduler::Position position() const override
   {
-    return {system_->n_steps, system_->time,
-            "stage " + std::to_string(test_->state().stage + 1)};
+    return {system_->n_steps, system_->time, "stage " + label().name()};
   }
   void save(dem::State& state) const override;
   void require_files() const override
@@ -57,8 +56,9 @@ private:
   {
     return !outcomes_.empty() && outcomes_.back() == dem::Outcome::unstable;
   }
-  dem::Outcome load_stage(const std::string& name, bool is_under_way,
-                          const std::function<void()>& after_step);
+  /// Of the stage that was begun last.
+  const StageLabel& label() const { return case_.stage_labels[test_->state().stage]; }
+  dem::Outcome load_stage(bool is_under_way, const std::function<void()>& after_step);
   void report_step() const;
   std::string record(); ///< returns lines for the user; mostly none
   double axial_strain() const
@@ -117,11 +117,10 @@ void TriaxialJob::check_restart(const CaseFile& file, const Restart& restart) co
   earlier_file.read_text(restart.checkpoint.label.case_text, restart.file.string());
   apps::complete(earlier_file, earlier);
   const auto n = load_outcomes(restart.checkpoint.state, earlier.stages.size()).size();
-  if (case_.stages.size() < n ||
-      !std::equal(earlier.stages.begin(), earlier.stages.begin() + n, case_.stages.begin()))
+  if (!may_go_on(earlier.stages, case_.stages, n))
     file.refuse("Loading", change->key,
                 "was \"" + change->was + "\", and the checkpoint is in stage " +
-                    std::to_string(n) +
+                    earlier.stage_labels[n - 1].name() +
                     " of the test: only later stages may change. Restore it, and add a "
                     "stage to go further; or choose an older checkpoint");
 }
@@ -143,7 +142,7 @@ std::string TriaxialJob::what_is_done(const Restart& restart) const
            "stage.";
   default:
     if (is_analysed_anew) return "";
-    return "stage " + std::to_string(n) +
+    return "stage " + case_.stage_labels[n - 1].name() +
            " ended the test: " + dem::sentence_of(outcomes.back()) +
            ". It cannot be loaded further.";
   }
@@ -219,7 +218,7 @@ std::string TriaxialJob::record()
   const coupling::TriaxialRecord r = test_->record();
   points_.push_back(point_of(r));
   extremes_.add(r);
-  on_first_rank([&] { output_->record(r); });
+  on_first_rank([&] { output_->record(r, label()); });
   const dem::EnergyAlarm& alarm = test_->state().alarm;
   return alarm.is_raised() && !was_raised ? alarm_text(alarm) : "";
 }
@@ -254,7 +253,7 @@ void TriaxialJob::write_fields(bool frame, bool bands)
       found.stage = test_->state().stage;
       found.axial_strain = strain;
       found.increment = earlier_->increment(strain);
-      output_->record(found, case_.d_50());
+      output_->record(found, case_.d_50(), label());
     }
     if (frame)
       output_->frame(test_->state().time, *assembly, at_walls, *system_, strains,
@@ -291,7 +290,7 @@ std::string words(const TriaxialPoint& r)
 }
 
 /// Run one stage to its end, from its start or, if `is_under_way`, from the present state.
-dem::Outcome TriaxialJob::load_stage(const std::string& name, bool is_under_way,
+dem::Outcome TriaxialJob::load_stage(bool is_under_way,
                                      const std::function<void()>& after_step)
 {
   std::string alarm;
@@ -299,7 +298,7 @@ dem::Outcome TriaxialJob::load_stage(const std::string& name, bool is_under_way,
     alarm = record();
     earlier_->begin_stage(axial_strain(), positions());
   }
-  Progress progress("stage " + std::to_string(test_->state().stage + 1) + ", " + name);
+  Progress progress("stage " + label().name() + ", " + label().text);
   progress.say(alarm);
   for (;;) {
     const bool approached = test_->is_approaching();
@@ -333,8 +332,7 @@ void TriaxialJob::run(const std::function<void()>& after_step)
       test_->begin_stage(next);
       outcomes_.push_back(dem::Outcome::unstable);
     }
-    const std::string name = name_of(case_.stages[outcomes_.size() - 1]);
-    outcomes_.back() = load_stage(name, resumes, after_step);
+    outcomes_.back() = load_stage(resumes, after_step);
   }
 }
 

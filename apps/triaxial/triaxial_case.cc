@@ -278,6 +278,7 @@ void complete(CaseFile& file, TriaxialCase& c)
   check(file, c.analysis);
   complete(file, c.checkpoints);
   c.stages = stages_of(file, c.stage_texts);
+  c.stage_labels = labels_of(c.stage_texts);
   if (c.specimen.is_granular()) check_granular(file, c);
   check_stages(file, c);
   const dem::SpecimenSpec& s = c.specimen.specimen;

@@ -35,6 +35,7 @@ struct TriaxialCase : coupling::TriaxialControl {
   MembraneKeys membrane;
   PlatenKeys platens;
   std::vector<std::string> stage_texts;
+  std::vector<StageLabel> stage_labels; ///< of all stages; set by complete()
 
   // Set by complete()
   dem::PairMaterials material;

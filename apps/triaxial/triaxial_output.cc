@@ -13,6 +13,7 @@ namespace {
 
 const std::vector<std::string> columns{"time [s]",
                                        "stage [-]",
+                                       "part [-]",
                                        "axial strain [-]",
                                        "axial strain of the middle third [-]",
                                        "lateral strain of the middle third [-]",
@@ -168,12 +169,13 @@ std::string TriaxialOutput::check(const std::filesystem::path& folder,
          Frames::check(folder, kinds_of(c), state);
 }
 
-void TriaxialOutput::record(const coupling::TriaxialRecord& r)
+void TriaxialOutput::record(const coupling::TriaxialRecord& r, const StageLabel& stage)
 {
   const dem::EnergyBalance& e = r.balance.assembly;
   const coupling::StructureEnergies& s = r.balance.structures;
   history_.add({r.time,
-                count(r.stage + 1),
+                count(stage.number),
+                static_cast<double>(stage.part),
                 r.whole.axial_strain(),
                 r.middle.axial,
                 r.middle.lateral,
@@ -223,9 +225,10 @@ void TriaxialOutput::record(const coupling::TriaxialRecord& r)
                 r.stable_step});
 }
 
-void TriaxialOutput::record(const coupling::BandRecord& r, double d_50)
+void TriaxialOutput::record(const coupling::BandRecord& r, double d_50,
+                            const StageLabel& stage)
 {
-  bands_.add(band_line(r, d_50));
+  bands_.add(band_line(r, d_50, stage));
 }
 
 void TriaxialOutput::frame(double time, const dem::Assembly& assembly,

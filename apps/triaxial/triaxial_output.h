@@ -23,9 +23,9 @@ public:
   static std::string check(const std::filesystem::path& folder, const TriaxialCase& c,
                            const dem::State& state);
 
-  void record(const coupling::TriaxialRecord& r);
+  void record(const coupling::TriaxialRecord& r, const StageLabel& stage);
   /// @param d_50 [m]
-  void record(const coupling::BandRecord& r, double d_50);
+  void record(const coupling::BandRecord& r, double d_50, const StageLabel& stage);
   /// @throws NumericalError when another program has touched a table
   void require_in_place() const
   {

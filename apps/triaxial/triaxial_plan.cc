@@ -10,7 +10,7 @@ namespace mergel::apps {
 Remarks unusual(const TriaxialCase& c)
 {
   Remarks remarks;
-  remark_on_stages(remarks, c.stages, c.strain_limit);
+  remark_on_stages(remarks, c.stages, c.stage_labels, c.strain_limit);
   expect_at_most(remarks, "Loading/inertial number", c.inertial_number, quasi_static,
                  "the test is not quasi-static");
   remark_on_specimen(remarks, c.specimen);

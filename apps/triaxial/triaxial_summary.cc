@@ -138,8 +138,9 @@ void summarise(Summary& summary, const TriaxialCase& c, const coupling::Triaxial
   const TriaxialPoint& last = points.back();
   std::vector<StagePoint> analysed;
   for (const TriaxialPoint& p : points) analysed.push_back(p.analysed);
-  summarise(summary, analyse(c.stages, c.analysis, outcomes, analysed), c.analysis);
-  summarise_bands(summary, bands, points, c.d_50());
+  summarise(summary, analyse(c.stages, c.stage_labels, c.analysis, outcomes, analysed),
+            c.analysis);
+  summarise_bands(summary, bands, points, c.stage_labels, c.d_50());
   summary.number("p at the end [Pa]", last.whole.p());
   summary.number("q at the end [Pa]", last.whole.q());
   summary.number("largest q [Pa]", extremes.q);

@@ -18,6 +18,14 @@ run "isotropic to p = 1 MPa" "triaxial to axial strain = 0.3 %" "unload-reload t
   "resume to axial strain = 0.6 %" a || fail "the run: $(cat a.log)"
 for file in history.csv summary.json resolved.prm; do [ -s "a/$file" ] || fail "a/$file is missing"; done
 [ "$(grep -c '"outcome": "target reached"' a/summary.json)" -eq 5 ] || fail "five stages end at their targets"
+# They have the numbers of the case in all results: the loop is stage 3, in two parts.
+stages=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  { s = $at["stage [-]"] "." $at["part [-]"]; if (s != before) printf "%s ", s; before = s }' a/history.csv)
+[ "$stages" = "1.0 2.0 3.1 3.2 4.0 " ] || fail "the stages of history.csv: $stages"
+[ "$(grep -o '"number": "[^"]*"' a/summary.json | cut -d'"' -f4 | tr '\n' ' ')" = "1 2 3a 3b 4 " ] || fail "the stages of summary.json"
+grep -q '"stage": "unload-reload to q = 1 MPa, reloading"' a/summary.json || fail "the words of stage 3b"
+grep -q '^stage 3a, unload-reload to q = 1 MPa, unloading: target reached' a.log && grep -q '^stage 4, resume to' a.log ||
+  fail "the stages of the log: $(cat a.log)"
 # The rock of the paper has E = 1.1 GPa; with 400 particles it scatters by a tenth.
 within a "Young's modulus" 0.9e9 1.4e9
 within a "bulk modulus" 0.45e9 0.8e9
@@ -35,7 +43,7 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
   $at["stage [-]"] == 2 { for (s = 0; s < 2; ++s) { d = $at["lateral stress " (s ? "x" : "y") " [Pa]"] / 1e5 - 1; if (d < 0) d = -d; if (d > most) most = d } ++n }
   END { print "sides at 100 kPa: within " 100 * most " %"; exit !(n > 50 && most < 0.03) }' slow/history.csv ||
   fail "the lateral stresses are not held while a stage accelerates"
-head -1 a/history.csv | awk -F, '{ n = NF } END { exit !(n == 56) }' || fail "the header of history.csv"
+head -1 a/history.csv | awk -F, '{ n = NF } END { exit !(n == 57) }' || fail "the header of history.csv"
 
 "$mergel" element a/resolved.prm --output b >b.log || fail "from resolved.prm: $(cat b.log)"
 cmp a/history.csv b/history.csv || fail "a repeated run differs"

@@ -36,12 +36,47 @@ TEST_CASE("A loading stage is read as it is written", "[unit][apps]")
   REQUIRE(both.size() == 2);
   CHECK(both[0].target == 0.2e6);
   CHECK(both[1].returns);
-  for (const char* text :
-       {"isotropic to p = 5 MPa", "radial dq/dp = 1.5 to p = 8 MPa",
-        "triaxial at 0.25 MPa to axial strain = 15 %",
-        "axes x = fixed, y = 0.5 MPa, z = strain-controlled to q = 2 MPa",
-        "axes x = strain-controlled, y = fixed, z = fixed to x strain = 1 %"})
-    CHECK(name_of(one(text)) == text);
+}
+
+TEST_CASE(
+    "Stages have the numbers and the words of the case; an unload-reload has parts a and b",
+    "[unit][apps]")
+{
+  const std::vector<std::string> texts{"oedometer to axial stress = 5000 kPa",
+                                       "unload-reload to axial stress = 1 MPa",
+                                       "resume to axial stress = 10 MPa", ""};
+  std::vector<std::string> found;
+  for (const StageLabel& label : labels_of(texts))
+    found.push_back(label.name() + ": " + label.text);
+  CHECK(found ==
+        std::vector<std::string>{"1: oedometer to axial stress = 5000 kPa",
+                                 "2a: unload-reload to axial stress = 1 MPa, unloading",
+                                 "2b: unload-reload to axial stress = 1 MPa, reloading",
+                                 "3: resume to axial stress = 10 MPa"});
+  CHECK(labels_of(texts)[2].number == 2);
+  CHECK(labels_of(texts)[2].part == 2);
+}
+
+TEST_CASE(
+    "A test goes on with other stages to come, not with others up to the one under way",
+    "[unit][apps]")
+{
+  const auto read = [](const std::vector<std::string>& texts) {
+    std::vector<dem::LoadingStage> stages;
+    for (const std::string& text : texts)
+      for (const dem::LoadingStage& stage : read_stages(text)) stages.push_back(stage);
+    return stages;
+  };
+  const std::string shear = "triaxial to q = 2 MPa", loop = "unload-reload to q = 1 MPa",
+                    unload = "unload to q = 1 MPa", on = "resume to q = 3 MPa";
+  const auto earlier = read({shear, loop, on});
+  CHECK(may_go_on(earlier, read({shear, unload}), 1));
+  CHECK(may_go_on(earlier, read({shear, loop}), 3));
+  CHECK_FALSE(may_go_on(earlier, read({shear, on}), 2));
+  CHECK_FALSE(may_go_on(earlier, read({shear}), 2));
+  // Of the loop only the unloading was begun: it stays a loop, and an unloading stays one.
+  CHECK_FALSE(may_go_on(earlier, read({shear, unload, on}), 2));
+  CHECK_FALSE(may_go_on(read({shear, unload}), read({shear, loop}), 2));
 }
 
 TEST_CASE("A loading stage that is not understood is refused with the forms expected",

@@ -5,19 +5,24 @@
 
 #include <catch2/catch.hpp>
 
+#include <limits>
+
 using namespace mergel;
 using namespace mergel::apps;
+using Catch::Matchers::Contains;
 
 namespace {
 
 /// Records of simple loading stages; stresses in Pa.
 struct RecordedTest {
   std::vector<dem::LoadingStage> stages;
+  std::vector<std::string> texts;
   std::vector<dem::Outcome> outcomes;
   std::vector<StagePoint> points;
 
   void stage(const std::string& text)
   {
+    texts.push_back(text);
     for (const dem::LoadingStage& l : read_stages(text)) {
       stages.push_back(l);
       outcomes.push_back(dem::Outcome::done);
@@ -35,7 +40,10 @@ struct RecordedTest {
     for (const auto& [e, s] : curve)
       add(stage, e, {-0.2 * e, -0.2 * e, e}, {lateral, lateral, s});
   }
-  std::vector<StageResult> results() const { return analyse(stages, {}, outcomes, points); }
+  std::vector<StageResult> results() const
+  {
+    return analyse(stages, labels_of(texts), {}, outcomes, points);
+  }
 };
 
 /// Value of the finding of this name; NaN if there is none.
@@ -67,6 +75,21 @@ TEST_CASE("Modulus, Poisson's ratio and UCS come from the stage and those that r
   CHECK(found(r[0], "minimum after the UCS") == 1e6);
   CHECK(std::isnan(found(r[0], "first peak before a collapse"))); // not the loop
   CHECK(found(r[1], "secant modulus of the stage") == Approx(1e9));
+
+  CHECK(r[0].name ==
+        "compression to axial strain = 0.2 %, analysed with the stages up to 3");
+  CHECK(r[1].number == "2a");
+  CHECK(r[2].number == "2b");
+  CHECK(r[3].number == "3");
+  Summary summary;
+  summarise(summary, r, {});
+  CHECK_THAT(summary.object(),
+             Contains("\"number\": \"2a\"") &&
+                 Contains("\"unload-reload to axial stress = 0.5 MPa, unloading\"") &&
+                 Contains("\"number\": \"3\"") && !Contains("\"number\": \"4\""));
+  CHECK_THAT(summary.closing.str(),
+             Contains("stage 2b, unload-reload to axial stress = 0.5 MPa, reloading: ") &&
+                 Contains("stage 3, resume to axial strain = 1 %: "));
 }
 
 TEST_CASE("A peak and the minimum after it are told of one fall of q", "[unit][apps]")

@@ -94,19 +94,19 @@ TEST_CASE("A line of localisation.csv has a number for each of its headings",
           "[unit][apps]")
 {
   coupling::BandRecord r;
-  r.stage = 1;
   r.axial_strain = 0.02;
   r.shear.band = {Vec3(0.0, std::sin(60 * degree), std::cos(60 * degree)), 1e-3, 5e-3, 0.7,
                   0.2};
   const auto headings = band_headings();
-  const auto line = band_line(r, 5e-4);
+  const auto line = band_line(r, 5e-4, {3, 2, "unload-reload to q = 0 MPa, reloading"});
   REQUIRE(line.size() == headings.size());
   const auto value = [&](const char* name) {
     const auto it = std::find(headings.begin(), headings.end(), name);
     REQUIRE(it != headings.end());
     return line[static_cast<std::size_t>(it - headings.begin())];
   };
-  CHECK(value("stage [-]") == 2.0);
+  CHECK(value("stage [-]") == 3.0);
+  CHECK(value("part [-]") == 2.0);
   CHECK(value("shear strain: angle [degree]") == Approx(60.0));
   CHECK(value("shear strain: dip direction [degree]") == Approx(90.0));
   CHECK(value("shear strain: thickness/d50 [-]") == Approx(8.0));

@@ -84,6 +84,30 @@ TEST_CASE("The first and the last stage can be chosen, and all are the history i
     CHECK_THROWS_WITH(stages_of(text), Contains("must be the number of a stage"));
 }
 
+TEST_CASE("Parts of an unload-reload can be chosen", "[unit][view]")
+{
+  // Stage 2 is a loop: its unloading, its reloading.
+  dem::Table t = history();
+  t.columns.push_back({"part", "-", {0, 0, 1, 1, 2, 2, 0, 0}});
+  for (const std::size_t c : {3u, 4u}) t.columns[c].values = t.columns[c - 2].values;
+  const auto lines = [&](const char* text) {
+    return from_stages(t, stages_of(text)).lines;
+  };
+  using Lines = std::vector<std::size_t>;
+  CHECK(lines("2a") == Lines{4, 5, 6, 7, 8, 9});
+  CHECK(lines("2b") == Lines{6, 7, 8, 9});
+  CHECK(lines("2a-2a") == Lines{4, 5});
+  CHECK(lines("2b-2") == Lines{6, 7});
+  CHECK(lines("1-2a") == Lines{2, 3, 4, 5});
+  CHECK(lines("2-2") == Lines{4, 5, 6, 7});
+  CHECK_THROWS_WITH(lines("3a"), Contains("no record of stage 3a, but of stage 3:"));
+  CHECK_THROWS_WITH(lines("1-3b"), Contains("no record of stage 3b"));
+  for (const char* text : {"2c", "a", "2b-2a", "2ab", "2-a"})
+    CHECK_THROWS_WITH(stages_of(text), Contains("must be the number of a stage"));
+  const auto plots = element_plots({{{0, "a"}, t}}, stages_of("2b"));
+  CHECK(plots[0].x.title() == "axial strain from stage 2b on (%)");
+}
+
 TEST_CASE("A run is isotropic where |q| is below 1 % of p", "[unit][view]")
 {
   CHECK(is_isotropic(run(1.9e4)));
