@@ -27,6 +27,10 @@ void check(const CaseFile& file, const AnalysisKeys& keys)
 
 namespace {
 
+/// Difference of controlled strains below which two records are at one strain: the first record
+/// of a stage is at that of the last one of the stage before [-].
+constexpr double round_off = 1e-12;
+
 /// Curve of a stage for the analysis: its records and those of the stages that resume it,
 /// without the approach and without the loops of unloading and reloading.
 class Backbone {
@@ -38,10 +42,17 @@ public:
       if (p.stage == first) direction_ = p.controlled_strain < 0.0 ? -1.0 : 1.0;
     }
     double largest_progress = -1.0;
+    bool is_in_loop = false;
     for (const StagePoint& p : points) {
       if (p.stage < first || p.stage > last || p.is_approach) continue;
-      if (direction_ * p.controlled_strain <= largest_progress) continue;
-      largest_progress = direction_ * p.controlled_strain;
+      const double progress = direction_ * p.controlled_strain;
+      if (progress <= largest_progress) {
+        is_in_loop = is_in_loop || progress < largest_progress - round_off;
+        continue;
+      }
+      if (is_in_loop) loops_.push_back(states_.size());
+      is_in_loop = false;
+      largest_progress = progress;
       states_.push_back(p.of_stage);
     }
   }
@@ -54,17 +65,18 @@ public:
   template <class Strain, class Stress>
   dem::Curve curve(Strain&& strain, Stress&& stress) const
   {
-    dem::Curve c;
+    dem::Curve c{{}, {}, loops_};
     for (const dem::SoilState& s : states_) {
       c.strain.push_back(direction_ * strain(s));
       c.stress.push_back(direction_ * stress(s));
     }
-    return c;
+    return dem::without_reloading(c);
   }
 
 private:
   double direction_ = 1.0;
   std::vector<dem::SoilState> states_;
+  std::vector<std::size_t> loops_; ///< states before which there was a loop
 };
 
 /// Names of the results of one curve.
@@ -87,10 +99,10 @@ void read_off(std::vector<Finding>& found, const AnalysisKeys& keys,
   const dem::Drop largest = dem::largest_drop(curve);
   found.push_back({names.peak, "Pa", largest.peak.stress});
   found.push_back({"strain there", "-", largest.peak.strain});
-  if (largest.minimum.stress < 0.98 * largest.peak.stress)
+  if (largest.minimum.stress < (1.0 - dem::smallest_fall) * largest.peak.stress)
     found.push_back(
         {std::string("minimum after the ") + names.peak, "Pa", largest.minimum.stress});
-  const auto first = dem::first_drop(curve, 0.02);
+  const auto first = dem::first_drop(curve, dem::smallest_fall);
   if (!first || !(first->peak.stress < largest.peak.stress)) return;
   found.push_back({"first peak before a collapse", "Pa", first->peak.stress});
   found.push_back({"minimum after the first peak", "Pa", first->minimum.stress});

@@ -69,23 +69,31 @@ Span choose(const std::vector<std::string>& stages, std::size_t n)
   return span_from(chosen < n ? chosen : last, stages, n);
 }
 
-/// The records of these stages in which the axial strain goes on.
-std::vector<StressState> curve_of(const dem::Table& history, const Span& span)
+/// Read the records of these stages in which the axial strain goes on.
+void read_curve(TestReading& r, const dem::Table& history, const Span& span)
 {
   const dem::Table rows = from_stages(
       history, {static_cast<int>(span.first) + 1, static_cast<int>(span.last) + 1});
   const auto& strain = rows.column("axial strain", "-");
   const auto &p = rows.column("p", "Pa"), &q = rows.column("q", "Pa");
   const auto& e = rows.column("void ratio", "-");
-  std::vector<StressState> curve;
+  const auto& stage = rows.column("stage", "-");
   const double direction = strain.back() < 0.0 ? -1.0 : 1.0;
   double progress = -std::numeric_limits<double>::infinity();
+  std::size_t last = 0;    // row that goes on
+  bool has_turned = false; // since then
   for (std::size_t row = 0; row < rows.n_rows; ++row) {
-    if (!(direction * strain[row] > progress)) continue;
+    if (!(direction * strain[row] > progress)) {
+      has_turned = has_turned || direction * strain[row] < progress;
+      continue;
+    }
+    // Within one stage the axial strain may turn by itself, as in an isotropic one.
+    if (has_turned && stage[row] != stage[last]) r.loops.push_back(r.curve.size());
+    has_turned = false;
+    last = row;
     progress = direction * strain[row];
-    curve.push_back({strain[row], p[row], q[row], e[row]});
+    r.curve.push_back({strain[row], p[row], q[row], e[row]});
   }
-  return curve;
 }
 
 /// Mean of the records whose strain is this share of the last one.
@@ -152,11 +160,12 @@ void read_peak(TestReading& r)
 {
   const bool is_isotropic = r.kind == TestKind::isotropic;
   if (!is_isotropic && !r.is_sheared()) return;
-  dem::Curve curve;
+  dem::Curve all{{}, {}, r.loops};
   for (const StressState& s : r.curve) {
-    curve.strain.push_back(s.strain);
-    curve.stress.push_back(is_isotropic ? s.p : s.q);
+    all.strain.push_back(s.strain);
+    all.stress.push_back(is_isotropic ? s.p : s.q);
   }
+  const dem::Curve curve = dem::without_reloading(all);
   r.largest = state_at(r.curve, dem::peak(curve).strain);
   if (const auto drop = dem::first_drop(curve, collapse)) {
     r.peak = state_at(r.curve, drop->peak.strain);
@@ -259,7 +268,7 @@ TestReading reading_of(const dem::Table& history, const TestCase& test_case,
   r.test_case = test_case;
   const Span span = choose(test_case.stages, n);
   r.stage = span.first + 1;
-  r.curve = curve_of(history, span);
+  read_curve(r, history, span);
   require(r.curve.size() > 1,
           history.file.string() + ": stage " + std::to_string(r.stage) +
               " has fewer than two records; there is nothing to read yet.");

@@ -61,6 +61,7 @@ struct TestReading {
   /// (Fig. 15d): see volume_rate.
   std::string not_critical;
   std::vector<StressState> curve; ///< without unloading and reloading
+  std::vector<std::size_t> loops; ///< states of the curve before which there was that
   bool is_finished = false;       ///< otherwise moduli and yield are missing
 
   bool is_sheared() const

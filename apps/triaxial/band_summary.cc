@@ -105,16 +105,18 @@ void say(std::ostream& out, const char* tenth, const dem::Localisation& found, d
 std::optional<MobilisedAngles> angles_at_peak(const std::vector<TriaxialPoint>& points,
                                               std::size_t stage)
 {
-  const TriaxialPoint* peak = nullptr;
+  const TriaxialPoint *peak = nullptr, *first = nullptr, *last = nullptr;
   double phi = 0.0;
   for (const TriaxialPoint& p : points) {
     if (!is_compressed(p, stage)) continue;
+    if (!first) first = &p;
+    last = &p;
     const double here = dem::friction_angle(p.whole.stress);
     if (peak && here <= phi) continue;
     peak = &p;
     phi = here;
   }
-  if (!peak) return {};
+  if (!peak || peak == first || peak == last) return {}; // loaded on, or unloaded, there
   const double e = peak->whole.axial_strain();
   const auto psi = psi_between(points, stage, e - around_peak, e + around_peak);
   if (!psi) return {};

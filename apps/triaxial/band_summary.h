@@ -18,7 +18,8 @@ struct MobilisedAngles {
 
 /// Those where the friction angle of a stage in triaxial compression is largest. The dilation
 /// angle is that of the least-squares line of volumetric over axial strain within 0.2 % of axial
-/// strain. None in extension, under tension, and of fewer than three records.
+/// strain. None in extension, under tension, of fewer than three records, and where it is largest
+/// at the first or the last record: that is no peak, but where somebody has unloaded or ended.
 /// @param points of all records
 std::optional<MobilisedAngles> angles_at_peak(const std::vector<TriaxialPoint>& points,
                                               std::size_t stage);

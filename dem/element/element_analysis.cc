@@ -15,7 +15,41 @@ double crossing(double a, double b)
   return a == b ? 0.0 : a / (a - b);
 }
 
+/// The point at which the reloading that begins at point `k` has ended.
+std::size_t end_of_reloading(const Curve& c, std::size_t k)
+{
+  std::size_t top = k;
+  for (std::size_t j = k; j < c.stress.size(); ++j) {
+    if (c.stress[j] >= c.stress[k - 1]) return j;
+    if (c.stress[j] > c.stress[top]) top = j;
+    if (c.stress[j] < c.stress[top] - smallest_fall * std::abs(c.stress[top])) break;
+  }
+  return top;
+}
+
 } // namespace
+
+bool Curve::is_after_loop(std::size_t point) const
+{
+  return std::binary_search(loops.begin(), loops.end(), point);
+}
+
+Curve without_reloading(const Curve& c)
+{
+  Curve kept;
+  for (std::size_t k = 0; k < c.strain.size(); ++k) {
+    if (k > 0 && c.is_after_loop(k)) {
+      // A further loop may begin before this reloading has ended.
+      const auto next = std::upper_bound(c.loops.begin(), c.loops.end(), k);
+      const std::size_t end = end_of_reloading(c, k);
+      k = next == c.loops.end() ? end : std::min(end, *next - 1);
+      kept.loops.push_back(kept.strain.size());
+    }
+    kept.strain.push_back(c.strain[k]);
+    kept.stress.push_back(c.stress[k]);
+  }
+  return kept;
+}
 
 std::optional<double> stress_at(const Curve& c, double strain)
 {
@@ -45,6 +79,7 @@ std::optional<CurvePoint> offset_yield(const Curve& c, double modulus, double of
   };
   for (std::size_t k = 1; k < c.strain.size(); ++k) {
     if (c.strain[k] <= from + offset || above(k) > 0.0) continue;
+    if (c.is_after_loop(k)) return {};
     const double before = above(k - 1);
     if (before <= 0.0) return CurvePoint{c.strain[k], c.stress[k]};
     const double t = crossing(before, above(k));
@@ -66,8 +101,10 @@ namespace {
 Drop drop_from(const Curve& c, std::size_t top)
 {
   std::size_t low = top;
-  for (std::size_t k = top + 1; k < c.stress.size() && c.stress[k] < c.stress[top]; ++k)
+  for (std::size_t k = top + 1; k < c.stress.size() && c.stress[k] < c.stress[top]; ++k) {
+    if (c.is_after_loop(k) && c.stress[low] >= (1.0 - smallest_fall) * c.stress[top]) break;
     if (c.stress[k] < c.stress[low]) low = k;
+  }
   return {{c.strain[top], c.stress[top]}, {c.strain[low], c.stress[low]}};
 }
 
@@ -81,12 +118,15 @@ Drop largest_drop(const Curve& c)
 
 std::optional<Drop> first_drop(const Curve& c, double share)
 {
-  std::size_t top = 0;
+  std::size_t top = 0, low = 0; // since the top
   for (std::size_t k = 1; k < c.stress.size(); ++k) {
-    if (c.stress[k] >= c.stress[top])
-      top = k;
-    else if (c.stress[k] < (1.0 - share) * c.stress[top])
-      return drop_from(c, top);
+    const bool is_falling = c.stress[low] < (1.0 - smallest_fall) * c.stress[top];
+    if (c.stress[k] >= c.stress[top] || (c.is_after_loop(k) && !is_falling)) {
+      top = low = k;
+      continue;
+    }
+    if (c.stress[k] < c.stress[low]) low = k;
+    if (c.stress[k] < (1.0 - share) * c.stress[top]) return drop_from(c, top);
   }
   return {};
 }

@@ -4,15 +4,29 @@
 
 #include "dem/notation.h"
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace mergel::dem {
 
-/// Stress [Pa] against strain [-], in the order of the test.
+/// Stress [Pa] against strain [-], in the order of the test, without loops of unloading and
+/// reloading.
 struct Curve {
   std::vector<double> strain, stress;
+  std::vector<std::size_t> loops{}; ///< points before which there was a loop, ascending
+
+  bool is_after_loop(std::size_t point) const;
 };
+
+/// A fall of the stress by less than this share of its peak is no collapse [-].
+inline constexpr double smallest_fall = 0.02;
+
+/// The curve without the ends of its reloadings: a reloading rejoins the curve from below, at a
+/// strain beyond that of the unloading. After a loop the points up to the one that bears the
+/// stress at the unloading again are left out; where none does, those up to the largest stress
+/// before it falls by `smallest_fall`, or before the end.
+Curve without_reloading(const Curve& c);
 
 struct CurvePoint {
   double strain, stress;
@@ -30,7 +44,8 @@ std::optional<double> secant(const Curve& c, double from, double to);
 /// `modulus` that is moved by `offset` to larger strains. ASTM E8/E8M, as used for the
 /// yield of bonded soils in isotropic, oedometer and triaxial compression by Leroueil and
 /// Vaughan (1990), Geotechnique 40, 467. The line starts at the first point of the secant,
-/// (from, stress there), so that a bedding error before it does not count.
+/// (from, stress there), so that a bedding error before it does not count. None where the curve
+/// passes the line across a loop: that yield would be where the user has unloaded.
 std::optional<CurvePoint> offset_yield(const Curve& c, double modulus, double offset,
                                        double from);
 
@@ -38,12 +53,14 @@ std::optional<CurvePoint> offset_yield(const Curve& c, double modulus, double of
 CurvePoint peak(const Curve& c);
 
 /// A peak and the smallest stress between it and the next point that lies as high, or the
-/// end of the curve: both belong to one fall of the stress.
+/// end of the curve: both belong to one fall of the stress. A fall by less than `smallest_fall`
+/// ends at a loop: whoever unloads ends a rise, and that is no peak of the specimen.
 struct Drop {
   CurvePoint peak, minimum;
 };
 
-/// That of the largest stress; peak and minimum are one point if the curve ends there.
+/// That of the largest stress; peak and minimum are one point if the curve ends there, or is
+/// unloaded.
 /// @pre the curve has a point
 Drop largest_drop(const Curve& c);
 

@@ -179,6 +179,23 @@ TEST_CASE("Loops of unloading are left out of a reading, and unload-reload is on
   CHECK(r.curve.size() == 3);
   CHECK_FALSE(r.peak);
   CHECK(r.end_strain == Approx(0.02));
+
+  // Reloading rejoins a third lower: that is no peak of q either.
+  const TestReading lower = reading_of(history({{1, 0, 0, 1e6, 0, 1},
+                                                {1, 0.01, 0.01, 2e6, 3e6, 1},
+                                                {2, 0.008, 0.008, 1e6, 0, 1, 1},
+                                                {2, 0.01, 0.01, 1.67e6, 2e6, 1, 2},
+                                                {3, 0.011, 0.011, 1.8e6, 2.4e6, 1},
+                                                {3, 0.02, 0.02, 3e6, 6e6, 1}}),
+                                       c, {});
+  CHECK(lower.loops == std::vector<std::size_t>{2});
+  CHECK_FALSE(lower.peak);
+  CHECK(lower.largest->q == Approx(6e6));
+
+  // Written when a loop counted as two stages.
+  table.columns.erase(table.columns.begin() + 1);
+  CHECK_THROWS_WITH(reading_of(table, c, {}),
+                    Contains("history.csv: has no column 'part [-]'"));
 }
 
 TEST_CASE("A history without the stages of its case is refused", "[unit][apps]")

@@ -83,6 +83,9 @@ TEST_CASE("Friction and dilation angle are those of the peak and of the end of t
   CHECK(end->phi == Approx(std::asin(2.0 / 4.0))); // 1 and 3 MPa
   CHECK(end->psi == Approx(psi));
 
+  // Ended before the peak, as by an unloading.
+  CHECK_FALSE(angles_at_peak({points.begin(), points.begin() + 15}, 1));
+  CHECK(angles_at_end({points.begin(), points.begin() + 15}, 1, 0.01));
   CHECK_FALSE(angles_at_peak(points, 0));                                 // another stage
   CHECK_FALSE(angles_at_end({points[0], points[1], points[2]}, 1, 4e-4)); // two with q > 0
   CHECK_FALSE(angles_at_peak(

@@ -70,6 +70,49 @@ TEST_CASE("A peak and the minimum after it are of one fall of the stress", "[uni
   CHECK(largest_drop(both).minimum.stress == 3.986);
 }
 
+TEST_CASE("A point at which the curve was unloaded is no peak and no yield", "[unit][dem]")
+{
+  // Unloaded at 5.0; reloading rejoins at 4.7, and the curve goes on to 10.
+  const Curve rises{{0, 1, 2, 3, 4, 5}, {0, 5.0, 4.7, 4.9, 5.1, 10.0}, {2}};
+  const Curve kept = without_reloading(rises);
+  CHECK(kept.strain == std::vector<double>{0, 1, 4, 5});
+  CHECK(kept.loops == std::vector<std::size_t>{2});
+  CHECK_FALSE(first_drop(kept, 0.02));
+  CHECK_FALSE(
+      first_drop(rises, 0.02)); // and by itself: the fall to 4.7 is that of the loop
+  CHECK(first_drop(Curve{rises.strain, rises.stress}, 0.02)); // without a loop it is one
+
+  // It bears less than at the unloading, and collapses from there: the peak is 4.9.
+  const Curve falls{{0, 1, 2, 3, 4, 5}, {0, 5.0, 4.7, 4.9, 2.5, 3.0}, {2}};
+  const Curve weak = without_reloading(falls);
+  CHECK(weak.strain == std::vector<double>{0, 1, 3, 4, 5});
+  REQUIRE(first_drop(weak, 0.02));
+  CHECK(first_drop(weak, 0.02)->peak.stress == 4.9);
+  CHECK(first_drop(weak, 0.02)->minimum.stress == 2.5);
+  CHECK(largest_drop(weak).peak.stress == 5.0);
+  CHECK(largest_drop(weak).minimum.stress == 5.0); // it did not fall from there
+
+  // A fall that has begun goes on behind a loop; where the reloading rejoins is no minimum.
+  const Curve softens{{0, 1, 2, 3, 4, 5}, {0, 5.0, 4.0, 3.5, 3.9, 3.8}, {3}};
+  CHECK(largest_drop(without_reloading(softens)).minimum.stress == 3.8);
+  CHECK(first_drop(without_reloading(softens), 0.02)->peak.stress == 5.0);
+
+  const Curve slowly{{0, 1, 2, 3, 4}, {0, 5.0, 4.75, 4.7, 4.4}, {3}};
+  REQUIRE(first_drop(slowly, 0.1));
+  CHECK(first_drop(slowly, 0.1)->peak.stress == 5.0);
+
+  // Two loops, the second before the first reloading has ended.
+  const Curve twice{{0, 1, 2, 3, 4}, {0, 5.0, 4.0, 4.5, 5.5}, {2, 3}};
+  CHECK(without_reloading(twice).strain == std::vector<double>{0, 1, 2, 3, 4});
+  CHECK_FALSE(first_drop(without_reloading(twice), 0.02));
+  CHECK(without_reloading(twice).loops == std::vector<std::size_t>{2, 3});
+
+  // The line of slope 5 moved by 0.5 is passed across the loop, where nobody knows the curve.
+  const Curve soft{{0, 1, 2, 3}, {0, 5.0, 5.1, 5.2}, {2}};
+  CHECK_FALSE(offset_yield(soft, 5.0, 0.5, 0.0));
+  CHECK(offset_yield(Curve{soft.strain, soft.stress}, 5.0, 0.5, 0.0));
+}
+
 TEST_CASE("Variances of a line are those of the normal equations", "[unit][dem]")
 {
   // Residuals d, -2 d, d at x = 1, 2, 3 are orthogonal to 1 and x: the line stays 5 + 2 x.
