@@ -83,6 +83,16 @@ void BrazilianJob::report_step() const
                       system_->assembly.particles);
 }
 
+std::string report_on_start(const coupling::BrazilianPoint& first)
+{
+  std::ostringstream out;
+  out.precision(3);
+  out << "stress at the start, at the centre: across the loaded diameter "
+      << 1e-6 * first.across << ", along it " << 1e-6 * first.along
+      << " MPa (tension positive), borne by its contacts: bonds begin without load\n";
+  return out.str();
+}
+
 void BrazilianJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
 {
   const dem::Sample sample = obtain_sample(file, case_.specimen);
@@ -100,7 +110,7 @@ void BrazilianJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
     dem::write_sample(folder.path() / "sample.h5", sample);
     output_.emplace(folder.path(), case_.disc());
   });
-  std::cout << record();
+  std::cout << record() << report_on_start(test_->points().front());
   if (case_.pictures != BrazilianCase::Pictures::none) frame();
   next_frame_ = case_.picture_every;
 }

@@ -150,6 +150,8 @@ void summarise(Summary& summary, const BrazilianCase& c,
   summary.number("half-angle of all contacts at the peak [rad]", at_peak.outermost);
   summary.number("stress across at the centre at the peak [Pa]", at_peak.across);
   summary.number("stress along at the centre at the peak [Pa]", at_peak.along);
+  summary.number("stress across at the centre at the start [Pa]", points.front().across);
+  summary.number("stress along at the centre at the start [Pa]", points.front().along);
   summary.number("tension at the centre over that of an elastic disc [-]", ratio);
   summary.count("bonds broken at the peak [-]", at_peak.broken);
   summary.count("bonds broken [-]", points.back().broken);

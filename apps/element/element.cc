@@ -8,6 +8,7 @@
 #include "apps/run/protocol.h"
 #include "apps/run/ranks.h"
 #include "apps/run/step_report.h"
+#include "apps/specimen/start_stress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +69,7 @@ private:
   std::optional<dem::ElementTest> test_;
   std::optional<ElementHistory> history_; ///< on the first rank
   std::optional<ElementPictures> pictures_;
+  dem::Vec3 start_ = dem::Vec3::Zero(); ///< stress before the first stage [Pa]
   std::vector<dem::ElementRecord> records_;
   /// Of stages begun; of the one under way unstable.
   std::vector<dem::Outcome> outcomes_;
@@ -152,6 +154,8 @@ void ElementJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
   const dem::PairMaterials materials = resolved_materials(case_, specimen);
   std::cout << report(case_, specimen, materials) << '\n';
   test_.emplace(case_, std::move(specimen), materials, comm);
+  start_ = along_axes(dem::cell_averages(test_->assembly()).stress);
+  std::cout << report_on_start(start_, "of the cell", borne_by_contacts);
   report_step();
   folder.prepare();
   on_first_rank([&] { history_.emplace(folder.path() / "history.csv"); });
@@ -165,6 +169,7 @@ void ElementJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
     std::cout << ElementHistory::check(restart.folder / "history.csv", state)
               << ElementPictures::check(restart.folder, state);
   });
+  start_ = load_start(state);
   records_ = load_records(state);
   outcomes_ = load_outcomes(state, case_.stages.size());
   if (outcomes_.back() == dem::Outcome::strain_limit_reached &&
@@ -241,6 +246,7 @@ void ElementJob::run(const std::function<void()>& after_step)
 void ElementJob::save(dem::State& state) const
 {
   apps::save(state, test_->state());
+  save_start(state, start_);
   apps::save(state, records_);
   apps::save(state, outcomes_);
   pictures_->save(state);
@@ -278,6 +284,7 @@ void ElementJob::summarise(Summary& summary, const Work& work) const
   on_first_rank([&] { // which alone prints and writes it
     apps::summarise(summary, case_,
                     summary_of(case_, test_->state(), outcomes_, records_, work.seconds));
+    add_start(summary, start_);
   });
 }
 

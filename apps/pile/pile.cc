@@ -7,6 +7,8 @@
 #include "apps/run/ranks.h"
 #include "apps/run/step_report.h"
 #include "apps/specimen/specimen.h"
+#include "apps/specimen/start_stress.h"
+#include "dem/assembly/averages.h"
 
 #include <iostream>
 #include <optional>
@@ -77,8 +79,19 @@ private:
   std::optional<PileOutput> output_; ///< on the first rank
   std::optional<coupling::CoupledSystem> coupled_;
   std::optional<Installation> installation_;
+  dem::Vec3 start_ = dem::Vec3::Zero(); ///< stress before the penetration [Pa]
   bool is_penetrating_ = false;
 };
+
+/// Stress of a box in the middle third of the height, away from side and symmetry plane [Pa],
+/// compression positive. Collective.
+dem::Vec3 stress_in_the_middle(const CoupledCase& c, const dem::Assembly& assembly)
+{
+  const double R = 0.5 * c.diameter, y = c.is_half() ? 0.25 * R : -0.5 * R;
+  const dem::Vec3 low(-0.5 * R, y, -2.0 / 3.0 * c.height),
+      high(0.5 * R, 0.5 * R, -1.0 / 3.0 * c.height);
+  return along_axes(dem::box_stress(assembly, low, high, (high - low).prod()));
+}
 
 std::string PileJob::what_is_done(const Restart& restart) const
 {
@@ -128,6 +141,7 @@ void PileJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
   report_step();
   installation_.emplace(case_, *coupled_, output_);
   if (is_penetrating_) {
+    start_ = load_start(state);
     installation_->load(state);
     if (const Push before = Installation::push_in(state);
         !case_.has_stages() && before.is_over() && before.tip < case_.travel())
@@ -147,7 +161,12 @@ void PileJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
 void PileJob::run(const std::function<void()>& after_step)
 {
   equilibrate(*coupled_, case_.assembly.unbalanced_tolerance, 200'000, after_step);
-  if (!is_penetrating_) installation_->begin();
+  if (!is_penetrating_) {
+    start_ = stress_in_the_middle(case_.assembly, coupled_->assembly);
+    std::cout << report_on_start(start_, "in the middle of the specimen",
+                                 "by contacts and bonds after settling");
+    installation_->begin();
+  }
   is_penetrating_ = true;
   installation_->run(after_step);
 }
@@ -156,7 +175,9 @@ void PileJob::save(dem::State& state) const
 {
   coupled_->save(state);
   PileOutput::save(state, output());
-  if (is_penetrating_) installation_->save(state);
+  if (!is_penetrating_) return;
+  installation_->save(state);
+  save_start(state, start_);
 }
 
 void PileJob::summarise(Summary& summary, const Work& work) const
@@ -164,6 +185,7 @@ void PileJob::summarise(Summary& summary, const Work& work) const
   if (!is_penetrating_) return;
   if (output_) output_->summarise(summary); // on the first rank, which writes it
   apps::summarise(summary, case_, *installation_, *coupled_, work);
+  add_start(summary, start_);
 }
 
 } // namespace

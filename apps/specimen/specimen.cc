@@ -89,6 +89,7 @@ std::string report(const SpecimenKeys& k, const dem::Sample& sample)
       << " kPa";
   if (s.compaction == dem::Compaction::confined)
     out << " (wanted " << 1e-3 * s.pressure << "), friction while packed " << p.friction;
+  if (p.pressure > 0.0) out << ", which the contacts keep: a test begins under it";
   if (k.is_granular())
     out << "; granular, without bonds: section Bond has no effect";
   else

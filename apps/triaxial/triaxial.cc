@@ -5,9 +5,11 @@
 #include "apps/run/ranks.h"
 #include "apps/run/step_report.h"
 #include "apps/specimen/specimen.h"
+#include "apps/specimen/start_stress.h"
 #include "apps/triaxial/triaxial_output.h"
 #include "apps/triaxial/triaxial_plan.h"
 #include "apps/triaxial/triaxial_summary.h"
+#include "dem/assembly/averages.h"
 #include "dem/assembly/distribute.h"
 #include "dem/continuum/loaded_branches.h"
 #include "dem/io/state/named_rows.h"
@@ -79,6 +81,7 @@ private:
   std::vector<coupling::BandRecord> bands_; ///< numbers on the first rank
   std::optional<coupling::EarlierPositions> earlier_;
   TriaxialExtremes extremes_;
+  dem::Vec3 start_ = dem::Vec3::Zero(); ///< stress of the middle third where it begins [Pa]
   /// Of stages begun; of the one under way unstable.
   std::vector<dem::Outcome> outcomes_;
   double next_frame_ = 0.0; ///< axial strain of the next picture by strain [-]
@@ -180,6 +183,10 @@ void TriaxialJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
     test_->seat(case_.specimen.specimen.pressure);
     progress.done(words_of_seat(*test_, system_->n_steps));
   }
+  const coupling::SpecimenGeometry& g = test_->geometry();
+  start_ = along_axes(dem::slab_stress(system_->assembly, g.z_bottom + g.height / 3.0,
+                                       g.z_bottom + 2.0 * g.height / 3.0, g.area));
+  std::cout << report_on_start(start_, "of the middle third", borne_by_contacts);
   report_step();
   std::cout << describe(case_, *test_) << '\n';
   folder.prepare();
@@ -196,6 +203,7 @@ void TriaxialJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
 {
   dem::State& state = restart.checkpoint.state;
   on_first_rank([&] { std::cout << TriaxialOutput::check(restart.folder, case_, state); });
+  start_ = load_start(state);
   points_ = load_points(state);
   bands_ = coupling::load_band_records(state);
   outcomes_ = load_outcomes(state, case_.stages.size());
@@ -340,6 +348,7 @@ void TriaxialJob::save(dem::State& state) const
 {
   system_->save(state);
   test_->save(state);
+  save_start(state, start_);
   apps::save(state, points_);
   coupling::save(state, bands_);
   earlier_->save(state);
@@ -359,6 +368,7 @@ void TriaxialJob::summarise(Summary& summary, const Work& work) const
   on_first_rank([&] {
     apps::summarise(summary, case_, *test_, *system_, outcomes_, points_, bands_, extremes_,
                     work);
+    add_start(summary, start_);
   });
 }
 

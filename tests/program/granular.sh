@@ -27,6 +27,9 @@ records a 'NR == 2 { if (abs(c("cell pressure [Pa]") / 50e3 - 1) > 1e-6 || abs(c
   { e = abs(c("energy error [-]")); if (e > most) most = e; if (c("broken bonds [-]") > 0) bad = 1 }
   END { s = (largest / (largest + 2 * p)); print "sand: largest q " largest " Pa, sin phi " s ", volumetric strain " v ", energy error " most
     exit bad || !(s > 0.42 && s < 0.71 && most < 1e-3) }' || fail "a sand under 100 kPa: $(head -3 a/history.csv)"
+# The stress of its middle third is the pressure, but for the rim of five particles across: within a third.
+within a "p at the start [Pa]" 33e3 67e3
+grep -q '^stress at the start, of the middle third: p 0\.0' a.log || fail "the stress at the start is not said: $(cat a.log)"
 # The same bits on two ranks, and from a checkpoint in the middle.
 on_ranks 2 "$mergel" triaxial "$sand" "${tiny[@]}" --output b --set "Output/checkpoint every=3000 steps" >b.log 2>&1 || fail "on 2 ranks: $(tail -5 b.log)"
 cmp a/history.csv b/history.csv || fail "on two ranks the history differs"
@@ -39,6 +42,7 @@ kill -TERM "$launched"
 wait "$launched" && fail "SIGTERM ends with 0"
 bounded "$mergel" triaxial --restart d >d.log 2>&1 || fail "the restart: $(tail -5 d.log)"
 cmp a/history.csv d/history.csv || fail "after a restart the history differs"
+[ "$(value d "p at the start [Pa]")" = "$(value a "p at the start [Pa]")" ] || fail "after a restart the stress at the start differs"
 
 # A periodic cell of the rock of element_small, without its bonds: section Bond may stay.
 cell=(--set "Specimen/edge x=3.9 mm" --set "Specimen/edge y=3.9 mm" --set "Specimen/edge z=3.9 mm" --set "Specimen/coordination=0"
@@ -48,6 +52,11 @@ element --set "Loading/stage 1=isotropic to p = 0.5 MPa" --set "Loading/stage 3=
   fail "element: $(tail -5 e.log)"
 grep -q 'granular, without bonds: section Bond has no effect' e.log || fail "what has no effect is not said: $(cat e.log)"
 [ "$(grep -c '"outcome": "target reached"' e/summary.json)" -eq 2 ] || fail "two stages: $(cat e.log)"
+# It begins under the pressure of its packing, which is said: that of the first record.
+within e "p at the start [Pa]" 80e3 120e3
+awk -v a="$(value e "p at the start [Pa]")" -v b="$(records e 'NR == 2 { print c("p [Pa]") }')" 'BEGIN { exit !(a > 0.999 * b && a < 1.001 * b) }' ||
+  fail "p at the start $(value e "p at the start [Pa]") Pa: $(head -2 e/history.csv)"
+grep -q '^stress at the start, of the cell: p 0\.[01]' e.log || fail "the stress at the start is not said: $(cat e.log)"
 records e 'NR > 2 && (c("Z of bonds [-]") > 0 || c("Z of contacts [-]") < 3) { bad = 1 }
   c("stage [-]") == 2 { r = c("q [Pa]") / c("p [Pa]") }
   END { print "cell: q/p " r; exit bad || !(r > 0.8 && r < 1.6) }' || fail "the cell without bonds"
