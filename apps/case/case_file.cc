@@ -280,10 +280,10 @@ void CaseFile::text(const std::string& key, std::string& target,
 }
 
 void CaseFile::numbered(const std::string& stem, std::map<std::size_t, std::string>& texts,
-                        const std::string& sentence, const std::string& next)
+                        const std::string& sentence, const std::string& next, Default first)
 {
   const NumberedKeys group{impl_->open_section, stem, next, &texts};
-  impl_->add(group.key(1, sentence));
+  impl_->add(group.key(1, sentence, first));
   impl_->numbered.push_back(group);
 }
 

@@ -84,7 +84,7 @@ public:
   Condition only_if(const std::string& choice, const std::vector<std::string>& values);
 
   /// The former name of a key of the open section: a case that gives it is refused with the
-  /// present name.
+  /// present name. "former N", "present N": the same number in both.
   void former_name(const std::string& former, const std::string& key);
 
   /// The same for a section.
@@ -171,10 +171,12 @@ public:
             Default standard = Default::present);
 
   /// Text keys "stem 1", "stem 2" and so on, as many as a case gives. `texts` gets those that
-  /// are not empty, by their numbers.
+  /// are not empty, by their numbers. An empty one is as one that is not there.
   /// @param next sentence of all but the first
+  /// @param first whether "stem 1" may be left out
   void numbered(const std::string& stem, std::map<std::size_t, std::string>& texts,
-                const std::string& sentence, const std::string& next);
+                const std::string& sentence, const std::string& next,
+                Default first = Default::present);
 
   /// A file or folder; may be empty unless it must be given. A relative path in the case
   /// file starts at the case file's folder, one from --set or a default at the working
@@ -208,7 +210,8 @@ public:
   /// "pile.prm: Pile/diameter". @pre read() was called
   std::string where(const std::string& section, const std::string& key) const;
 
-  /// Refuse the value of a key: throws InputError "<where> = <value as given>: <message>".
+  /// Refuse the value of a key: throws InputError "<where> = <value as given>: <message>". A
+  /// numbered key that the case does not give may be refused too.
   /// @pre read() was called
   [[noreturn]] void refuse(const std::string& section, const std::string& key,
                            const std::string& message) const;

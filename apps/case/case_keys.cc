@@ -59,7 +59,8 @@ std::size_t NumberedKeys::number_in(const std::string& key) const
   return error == std::errc{} && at == end && *begin != '0' ? number : 0;
 }
 
-CaseKey NumberedKeys::key(std::size_t number, const std::string& sentence) const
+CaseKey NumberedKeys::key(std::size_t number, const std::string& sentence,
+                          Default standard) const
 {
   CaseKey k;
   k.name = name(number);
@@ -67,12 +68,34 @@ CaseKey NumberedKeys::key(std::size_t number, const std::string& sentence) const
   k.unit = "-";
   k.allowed = "text";
   k.sentence = sentence;
-  k.parse = [number, to = texts](const std::string& text, const std::filesystem::path&) {
+  k.is_required = standard == Default::none;
+  k.write_hint = "a text";
+  k.parse = [number, to = texts, sentence, is_required = k.is_required](
+                const std::string& text, const std::filesystem::path&) {
+    if (is_required && text.empty()) throw InputError("must not be empty. " + sentence);
     require_writable(text);
     if (!text.empty()) (*to)[number] = text;
     return text;
   };
   return k;
+}
+
+bool CaseFile::Impl::is_numbered(const std::string& section, const std::string& name) const
+{
+  return std::any_of(numbered.begin(), numbered.end(), [&](const NumberedKeys& group) {
+    return group.section == section && group.number_in(name) > 0;
+  });
+}
+
+std::string CaseFile::Impl::present_name(const std::string& section,
+                                         const std::string& former) const
+{
+  if (const auto now = former_names.find({section, former}); now != former_names.end())
+    return now->second;
+  const auto stem = former.find_last_not_of("0123456789") + 1; // 0 of digits alone
+  const auto now = former_names.find({section, former.substr(0, stem) + "N"});
+  if (stem == former.size() || now == former_names.end()) return "";
+  return now->second.substr(0, now->second.size() - 1) + former.substr(stem);
 }
 
 void CaseFile::Impl::declare_numbers(const std::vector<CaseEntry>& entries)
@@ -151,9 +174,8 @@ void CaseFile::Impl::refuse_section(const std::string& place,
 
 void CaseFile::Impl::refuse_key(const std::string& place, const CaseEntry& entry) const
 {
-  if (const auto now = former_names.find({entry.section, entry.key});
-      now != former_names.end())
-    throw InputError(place + " = " + entry.value + ": this key is now `" + now->second +
+  if (const std::string now = present_name(entry.section, entry.key); !now.empty())
+    throw InputError(place + " = " + entry.value + ": this key is now `" + now +
                      "`. Rename it.");
   std::string help;
   for (const CaseKey& key : keys)

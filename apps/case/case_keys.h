@@ -49,7 +49,8 @@ struct NumberedKeys {
   std::string name(std::size_t number) const { return stem + ' ' + std::to_string(number); }
   /// The number of a key of this name; 0 for any other.
   std::size_t number_in(const std::string& key) const;
-  CaseKey key(std::size_t number, const std::string& sentence) const;
+  CaseKey key(std::size_t number, const std::string& sentence,
+              Default standard = Default::present) const;
 };
 
 /// What a CaseFile holds.
@@ -58,7 +59,7 @@ struct CaseFile::Impl {
   std::vector<CaseKey> keys;
   std::vector<NumberedKeys> numbered;
   std::map<std::pair<std::string, std::string>, std::string>
-      former_names; ///< by section and former name: the present one
+      former_names; ///< by section and former name: the present one; "N" for any number
   std::map<std::string, std::string> former_sections; ///< the same
   std::string open_section;
   std::string open_choice;              ///< of the open condition
@@ -90,6 +91,12 @@ struct CaseFile::Impl {
 
   /// Refuse a key that does not exist in this case, naming the choice that it belongs to.
   [[noreturn]] void refuse_inactive(const CaseKey& key);
+
+  /// Whether this is a name of numbered keys, of a number that the case gives or not.
+  bool is_numbered(const std::string& section, const std::string& name) const;
+
+  /// The present name of a key that was renamed; "" for any other.
+  std::string present_name(const std::string& section, const std::string& former) const;
 
   /// Declare the numbered keys that these entries have, and no others but the first of each.
   void declare_numbers(const std::vector<CaseEntry>& entries);

@@ -147,6 +147,9 @@ std::string CaseFile::where(const std::string& section, const std::string& key) 
 void CaseFile::refuse(const std::string& section, const std::string& key,
                       const std::string& message) const
 {
+  if (!impl_->find(section, key) && impl_->is_numbered(section, key))
+    throw InputError(impl_->file_name + ": " + section + "/" + key +
+                     ", which is not given: " + message);
   const CaseKey& k = impl_->at(section, key);
   throw InputError(impl_->place(k) + " = " + k.value + ": " + message);
 }

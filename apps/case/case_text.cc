@@ -72,6 +72,9 @@ CaseFile::changes_since(const std::string& earlier_resolved_text) const
     const CaseKey* key = impl_->find(e.section, e.key);
     if (!key || key->is_active) changes.push_back({e.section, e.key, e.value, ""});
   }
+  std::erase_if(changes, [&](const Change& c) {
+    return c.was.empty() && c.is.empty() && impl_->is_numbered(c.section, c.key);
+  });
   return changes;
 }
 

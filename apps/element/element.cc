@@ -78,11 +78,8 @@ private:
 /// Of the stages only later ones may change, see check_restart().
 std::vector<std::string> ElementJob::free_keys() const
 {
-  std::vector<std::string> keys{"Loading/strain limit", "Analysis/secant from",
-                                "Analysis/secant to", "Analysis/yield offset",
-                                "Analysis/critical states"};
-  for (std::size_t k = 0; k < max_stages; ++k) keys.push_back("Loading/" + key_of_stage(k));
-  return keys;
+  return {"Loading/stage N",    "Loading/strain limit",  "Analysis/secant from",
+          "Analysis/secant to", "Analysis/yield offset", "Analysis/critical states"};
 }
 
 /// Refuse a change of the stages up to the present one.

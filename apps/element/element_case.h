@@ -29,7 +29,7 @@ struct ElementCase : dem::ElementControl {
   SizeEffectKeys size_effect;
 
   // Loading
-  std::vector<std::string> stage_texts;
+  StageTexts stage_texts;
   std::vector<StageLabel> stage_labels; ///< of all stages; set by complete()
 
   // Analysis

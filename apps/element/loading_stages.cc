@@ -1,5 +1,6 @@
 #include "apps/element/loading_stages.h"
 
+#include "apps/case/cycles.h"
 #include "apps/case/units.h"
 #include "apps/case/words.h"
 #include "dem/error.h"
@@ -18,7 +19,8 @@ const char* const forms_of_stage =
     "compression | tension | axes x = RULE, y = RULE, z = RULE (one `strain-controlled`, "
     "the others `fixed` or a STRESS) | resume | unload | reload | unload-reload, then `to` "
     "and the target: p, q, axial stress, lateral stress, axial strain, volumetric strain, "
-    "x stress, y stress, x strain or y strain = VALUE";
+    "x stress, y stress, x strain or y strain = VALUE; `, N times` behind that of an "
+    "unload-reload repeats it";
 
 namespace {
 
@@ -147,7 +149,8 @@ void read_details(LoadingStage& stage, const std::string& kind, const std::strin
 
 std::vector<LoadingStage> read_stages(const std::string& text)
 {
-  const std::string padded = text + " ";
+  const Cycles cycles = cycles_in(text);
+  const std::string padded = cycles.text + " ";
   const auto to = padded.find(" to ");
   if (to == std::string::npos)
     throw InputError(std::string("there is no `to`; a stage reads: ") + forms_of_stage);
@@ -163,32 +166,36 @@ std::vector<LoadingStage> read_stages(const std::string& text)
   stage.quantity = chosen(name, quantities, "the quantity");
   stage.target = dem::is_strain(stage.quantity) ? strain(value) : stress(value);
   if (stage.kind != PathKind::resume) stage.check(); // else by the stage that it resumes
-  if (kind != "unload-reload") return {stage};
+  if (kind != "unload-reload") {
+    if (cycles.is_given)
+      throw InputError(
+          "only an `unload-reload` is repeated: leave the number of times out");
+    return {stage};
+  }
   LoadingStage back = stage;
   back.returns = true;
-  return {stage, back};
+  std::vector<LoadingStage> parts;
+  for (std::size_t k = 0; k < cycles.n; ++k) parts.insert(parts.end(), {stage, back});
+  return parts;
 }
 
-std::string key_of_stage(std::size_t k)
+std::string key_of_stage(std::size_t number)
 {
-  return "stage " + std::to_string(k + 1);
+  return "stage " + std::to_string(number);
 }
 
-void declare_stages(CaseFile& file, std::vector<std::string>& texts)
+void declare_stages(CaseFile& file, StageTexts& texts)
 {
-  texts.assign(max_stages, "");
-  for (std::size_t k = 0; k < max_stages; ++k) {
-    file.former_name("leg " + std::to_string(k + 1), key_of_stage(k));
-    file.text(
-        key_of_stage(k), texts[k],
-        k > 0 ? "The next loading stage; empty: the test ends with the stage before."
-              : std::string("A loading stage: ") + forms_of_stage +
-                    ". Compression is positive, z is the axis, strains count from the "
-                    "start of the stage (resume, unload, reload: of the stage resumed). "
-                    "Where a stage needs another lateral stress, that comes first, at "
-                    "constant q (from zero isotropic); strains count from its end.",
-        k > 0 ? Default::present : Default::none);
-  }
+  file.former_name("leg N", "stage N");
+  file.numbered(
+      "stage", texts,
+      std::string("A loading stage: ") + forms_of_stage +
+          ". Compression is positive, z is the axis, strains count from the start of the "
+          "stage (resume, unload, reload: of the stage resumed). Where a stage needs "
+          "another lateral stress, that comes first, at constant q (from zero isotropic); "
+          "strains count from its end. As many stages as needed: stage 2, stage 3 and so "
+          "on.",
+      "The next loading stage.", Default::none);
 }
 
 namespace {
@@ -234,27 +241,23 @@ void require_possible(const std::string& text, const LoadingStage& stage,
 
 } // namespace
 
-std::vector<LoadingStage> stages_of(const CaseFile& file,
-                                    const std::vector<std::string>& texts)
+std::vector<LoadingStage> stages_of(const CaseFile& file, const StageTexts& texts)
 {
   std::vector<LoadingStage> stages;
-  bool is_over = false;
-  for (std::size_t k = 0; k < max_stages; ++k) {
-    if (texts[k].empty()) {
-      is_over = true;
-      continue;
-    }
-    if (is_over)
-      file.refuse("Loading", key_of_stage(k),
-                  "the stage before is empty: number the stages without a gap");
+  std::size_t n_read = 0;
+  for (const auto& [number, text] : texts) {
+    if (number != ++n_read)
+      file.refuse("Loading", key_of_stage(number),
+                  "there is no `" + key_of_stage(n_read) +
+                      "`: number the stages from 1 without a gap");
     try {
-      for (const dem::LoadingStage& stage : read_stages(texts[k])) {
+      for (const dem::LoadingStage& stage : read_stages(text)) {
         if (stage.kind == dem::PathKind::resume) stage.check_after(resumed(stages));
-        require_possible(texts[k], stage, stages);
+        require_possible(text, stage, stages);
         stages.push_back(stage);
       }
     } catch (const std::invalid_argument& e) {
-      file.refuse("Loading", key_of_stage(k), e.what());
+      file.refuse("Loading", key_of_stage(number), e.what());
     }
   }
   return stages;
@@ -278,13 +281,13 @@ bool is_without_pressure(const LoadingStage& s)
 
 } // namespace
 
-void check_granular_stages(const CaseFile& file, const std::vector<std::string>& texts)
+void check_granular_stages(const CaseFile& file, const StageTexts& texts)
 {
-  for (std::size_t k = 0; k < max_stages && !texts[k].empty(); ++k)
-    for (const LoadingStage& stage : read_stages(texts[k]))
+  for (const auto& [number, text] : texts)
+    for (const LoadingStage& stage : read_stages(text))
       if (is_without_pressure(stage))
         file.refuse(
-            "Loading", key_of_stage(k),
+            "Loading", key_of_stage(number),
             "an axis would be without pressure, and particles without bonds, "
             "`Specimen/coordination` = 0, fall apart: confine them, as in `triaxial "
             "at 0.1 MPa`");
@@ -293,19 +296,25 @@ void check_granular_stages(const CaseFile& file, const std::vector<std::string>&
 std::string StageLabel::name() const
 {
   constexpr std::array<const char*, 3> letters{"", "a", "b"};
-  return std::to_string(number) + letters.at(static_cast<std::size_t>(part));
+  return std::to_string(number) + letters.at(static_cast<std::size_t>(part)) +
+         (cycle == 0 ? "" : " of cycle " + std::to_string(cycle));
 }
 
-std::vector<StageLabel> labels_of(const std::vector<std::string>& texts)
+std::vector<StageLabel> labels_of(const StageTexts& texts)
 {
   std::vector<StageLabel> labels;
-  for (std::size_t k = 0; k < texts.size() && !texts[k].empty(); ++k)
-    if (read_stages(texts[k]).size() == 1) {
-      labels.push_back({k + 1, 0, texts[k]});
-    } else {
-      labels.push_back({k + 1, 1, texts[k] + ", unloading"});
-      labels.push_back({k + 1, 2, texts[k] + ", reloading"});
+  for (const auto& [number, text] : texts) {
+    const std::size_t n_parts = read_stages(text).size();
+    if (n_parts == 1) {
+      labels.push_back({number, 0, 0, text});
+      continue;
     }
+    for (std::size_t k = 0; k < n_parts; ++k) {
+      const bool unloads = k % 2 == 0;
+      labels.push_back({number, unloads ? 1 : 2, n_parts == 2 ? 0 : k / 2 + 1,
+                        text + (unloads ? ", unloading" : ", reloading")});
+    }
+  }
   return labels;
 }
 

@@ -4,12 +4,14 @@
 ///     set stage 2 = triaxial to axial strain = 2 %
 ///     set stage 3 = unload-reload to q = 0.2 MPa
 ///     set stage 4 = resume to axial strain = 15 %
-///     set stage 5 = axes x = fixed, y = 1 MPa, z = strain-controlled to axial strain = 2 %
+///     set stage 5 = unload-reload to q = 0.2 MPa, 10 times
+///     set stage 6 = axes x = fixed, y = 1 MPa, z = strain-controlled to axial strain = 2 %
 #pragma once
 
 #include "apps/case/case_file.h"
 #include "dem/element/stress_path.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,37 +20,39 @@ namespace mergel::apps {
 /// The forms that a stage may have, for help and messages.
 extern const char* const forms_of_stage;
 
-/// Stages of one key: one, or two for unload-reload.
+/// Stages of one key: one, or two for each cycle of unload-reload.
 /// @throws InputError with the error and the expected form; it does not repeat the text
 std::vector<dem::LoadingStage> read_stages(const std::string& text);
 
-constexpr std::size_t max_stages = 12;
-/// "stage 1" for k = 0.
-std::string key_of_stage(std::size_t k);
+/// Texts of the stages by their numbers in the case, from 1.
+using StageTexts = std::map<std::size_t, std::string>;
 
-/// Declare the stages in the open section `Loading`. @param texts gets one for each key
-void declare_stages(CaseFile& file, std::vector<std::string>& texts);
+/// "stage 1" for number 1.
+std::string key_of_stage(std::size_t number);
+
+/// Declare the stages in the open section `Loading`, as many as a case gives.
+void declare_stages(CaseFile& file, StageTexts& texts);
 /// The stages of these texts. @throws InputError naming file, line and key
-std::vector<dem::LoadingStage> stages_of(const CaseFile& file,
-                                         const std::vector<std::string>& texts);
+std::vector<dem::LoadingStage> stages_of(const CaseFile& file, const StageTexts& texts);
 
 /// Refuse a stage that particles without bonds cannot follow: where an axis bears no pressure
 /// they fall apart. @pre stages_of() has read these texts
 /// @throws InputError naming file, line and key
-void check_granular_stages(const CaseFile& file, const std::vector<std::string>& texts);
+void check_granular_stages(const CaseFile& file, const StageTexts& texts);
 
 /// A loading stage as the case has it. `unload-reload` is one stage of the case and two of the
 /// test, its parts.
 struct StageLabel {
   std::size_t number = 1; ///< of its key, from 1
   int part = 0;           ///< 0 the whole of it, 1 its unloading, 2 its reloading
+  std::size_t cycle = 0;  ///< of a loop that is repeated, from 1; else 0
   std::string text;       ///< as the case says it, "unload-reload to q = 1 MPa, unloading"
 
-  std::string name() const; ///< "3"; "3a" and "3b" for the parts
+  std::string name() const; ///< "3"; "3a" and "3b" for the parts; "3a of cycle 2"
 };
 
 /// One for each loading stage of these texts, in their order. @pre stages_of() has read them
-std::vector<StageLabel> labels_of(const std::vector<std::string>& texts);
+std::vector<StageLabel> labels_of(const StageTexts& texts);
 
 /// Whether a test in which `n_begun` stages of `earlier` were begun may go on with `now`: these
 /// are the same, and so is the reloading where only the unloading of a stage was begun.

@@ -125,34 +125,34 @@ void check_stages(const CaseFile& file, const TriaxialCase& c)
 {
   using dem::PathKind;
   bool is_confined = c.specimen.is_granular(); // under its target pressure
-  for (std::size_t k = 0; k < max_stages; ++k) {
-    if (c.stage_texts[k].empty()) break;
-    for (const dem::LoadingStage& stage : read_stages(c.stage_texts[k])) {
+  for (const auto& [number, text] : c.stage_texts) {
+    for (const dem::LoadingStage& stage : read_stages(text)) {
       const bool fits =
           stage.kind == PathKind::isotropic || stage.kind == PathKind::triaxial ||
           stage.kind == PathKind::compression || stage.kind == PathKind::resume;
       if (!fits)
         file.refuse(
-            "Loading", key_of_stage(k),
+            "Loading", key_of_stage(number),
             "a triaxial cell does `isotropic`, `triaxial [at STRESS]`, "
             "`compression`, `resume`, `unload`, `reload` and `unload-reload`; other "
             "paths are those of `mergel element`. Extension is `triaxial to axial "
             "strain = -1 %`");
       if (stage.has_lateral && stage.lateral < 0.0)
-        file.refuse("Loading", key_of_stage(k), "the cell pressure must not be negative");
+        file.refuse("Loading", key_of_stage(number),
+                    "the cell pressure must not be negative");
       const bool confines =
           stage.kind == PathKind::isotropic || (stage.has_lateral && stage.lateral > 0.0);
       if (confines && !c.membrane.is_there)
-        file.refuse("Loading", key_of_stage(k),
+        file.refuse("Loading", key_of_stage(number),
                     "a cell pressure needs a membrane: set `Membrane/membrane = true`, or "
                     "load by `compression` for the unconfined test");
       if (stage.kind == PathKind::isotropic && !(stage.target > 0.0))
-        file.refuse("Loading", key_of_stage(k),
+        file.refuse("Loading", key_of_stage(number),
                     "the target must be positive: a membrane cannot pull");
       if (confines || stage.has_lateral || stage.kind == PathKind::compression)
         is_confined = confines;
       if (stage.kind == PathKind::triaxial && stage.target < 0.0 && !is_confined)
-        file.refuse("Loading", key_of_stage(k),
+        file.refuse("Loading", key_of_stage(number),
                     "the platens do not pull: extension needs a cell pressure, by "
                     "`isotropic` or `triaxial at STRESS`");
     }

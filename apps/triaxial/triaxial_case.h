@@ -34,7 +34,7 @@ struct TriaxialCase : coupling::TriaxialControl {
   ContactKeys contact;
   MembraneKeys membrane;
   PlatenKeys platens;
-  std::vector<std::string> stage_texts;
+  StageTexts stage_texts;
   std::vector<StageLabel> stage_labels; ///< of all stages; set by complete()
 
   // Set by complete()

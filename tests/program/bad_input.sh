@@ -46,6 +46,7 @@ pile|Far field/growth|1.4|mesh growth ratio
 pile|Far field/lip|1 mm|collar height
 pile|Pile/velocity|1 m/s|penetration rate
 element|Loading/leg 2|triaxial to axial strain = 2 %|stage 2
+element|Loading/leg 13|resume to axial strain = 2 %|stage 13
 element|Size effect/sample width|10 mm|specimen width
 bond|Loading/steps per leg|10|steps per stage
 NAMES

@@ -153,7 +153,9 @@ refused 'stage 1 = .*there is no stage before' "unload to q = 1 MPa" "" "" "" g
 refused 'stage 2 = .*no `to`' "isotropic to p = 1 MPa" "triaxial" "" "" g
 refused 'stage 1 = .*Pa' "isotropic to p = 1 mm" "" "" "" g
 refused 'does not change along the stage' "isotropic to q = 1 MPa" "" "" "" g
-refused 'stage 3 = .*the stage before is empty' "isotropic to p = 1 MPa" "" "isotropic to p = 2 MPa" "" g
+refused 'stage 3 = .*there is no `stage 2`' "isotropic to p = 1 MPa" "" "isotropic to p = 2 MPa" "" g
+refused 'stage 2 = .*the number of cycles "0" must be' "isotropic to p = 1 MPa" "unload-reload to p = 0.5 MPa, 0 times" "" "" g
+refused 'stage 2 = .*only an `unload-reload` is repeated' "isotropic to p = 1 MPa" "unload to p = 0.5 MPa, 2 times" "" "" g
 refused 'must be negative' "tension to axial stress = 1 MPa" "" "" "" g
 refused 'stage 2 = .*does not change along the stage' "isotropic to p = 1 MPa" "unload to q = 1 MPa" "" "" g
 refused 'Loading/strain limit = 0.85' "isotropic to p = 1 MPa" "" "" "" g --set "Loading/strain limit=0.85"

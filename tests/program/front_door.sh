@@ -29,8 +29,12 @@ grep -Eq 'deal.II [0-9.]+, PETSc [0-9.]+, VTK [0-9.]+, HDF5 [0-9.]+, Eigen [0-9.
   fail "a library without its version: $(cat out.version)"
 
 ## repeated stages are one line
-[ "$("$mergel" element --help | grep -c '^  stage ')" -le 2 ] || fail "stages are repeated: $("$mergel" element --help | grep '^  stage ')"
-"$mergel" element --help | grep -q '^  stage N ' || fail "no stage N"
+for job in element triaxial pile; do
+  for form in --help --template; do
+    "$mergel" $job $form | grep -E '^ +(set )?stage [0-9N]' >stages || fail "no stage: $job $form"
+    [ "$(wc -l <stages)" -eq 1 ] || fail "stages are repeated: $job $form: $(cat stages)"
+  done
+done
 
 ## a terminal pages what is longer than it; a pipe never
 on_terminal() { script -qec "stty rows 20; $*" /dev/null </dev/null | tr -d '\r'; }

@@ -170,6 +170,10 @@ TEST_CASE("Loops of unloading are left out of a reading, and unload-reload is on
                    "  set stage 4 =\nend\n",
                    "resolved.prm");
   CHECK(c.stages.size() == 3);
+  CHECK(test_case_of("subsection Loading\n  set stage 1 = triaxial to axial strain = 1 %\n"
+                     "  set stage 2 = unload-reload to q = 0 MPa, 3 times\nend\n",
+                     "resolved.prm")
+            .stages.size() == 2);
   dem::Table table = history({{1, 0, 0, 1e6, 0, 1},
                               {1, 0.01, 0.01, 2e6, 3e6, 1},
                               {2, 0.008, 0.008, 1e6, 0, 1, 1}, // not a fall of q

@@ -1,5 +1,6 @@
 #include "apps/element/loading_stages.h"
 
+#include "apps/case/cycles.h"
 #include "dem/error.h"
 
 #include <catch2/catch.hpp>
@@ -42,9 +43,9 @@ TEST_CASE(
     "Stages have the numbers and the words of the case; an unload-reload has parts a and b",
     "[unit][apps]")
 {
-  const std::vector<std::string> texts{"oedometer to axial stress = 5000 kPa",
-                                       "unload-reload to axial stress = 1 MPa",
-                                       "resume to axial stress = 10 MPa", ""};
+  const StageTexts texts{{1, "oedometer to axial stress = 5000 kPa"},
+                         {2, "unload-reload to axial stress = 1 MPa"},
+                         {3, "resume to axial stress = 10 MPa"}};
   std::vector<std::string> found;
   for (const StageLabel& label : labels_of(texts))
     found.push_back(label.name() + ": " + label.text);
@@ -55,6 +56,9 @@ TEST_CASE(
                                  "3: resume to axial stress = 10 MPa"});
   CHECK(labels_of(texts)[2].number == 2);
   CHECK(labels_of(texts)[2].part == 2);
+  const auto loops = labels_of({{1, "unload-reload to q = 1 MPa, 2 times"}});
+  REQUIRE(loops.size() == 4);
+  CHECK(loops[3].name() == "1b of cycle 2");
 }
 
 TEST_CASE(
@@ -77,6 +81,100 @@ TEST_CASE(
   // Of the loop only the unloading was begun: it stays a loop, and an unloading stays one.
   CHECK_FALSE(may_go_on(earlier, read({shear, unload, on}), 2));
   CHECK_FALSE(may_go_on(read({shear, unload}), read({shear, loop}), 2));
+}
+
+TEST_CASE("A cycle of unloading is as many pairs of stages as its number says",
+          "[unit][apps]")
+{
+  const auto once = read_stages("unload-reload to q = 0.2 MPa");
+  CHECK(read_stages("unload-reload to q = 0.2 MPa, 1 time") == once);
+  const auto five = read_stages("unload-reload to q = 0.2 MPa , 5 times ");
+  REQUIRE(five.size() == 10);
+  for (std::size_t k = 0; k < five.size(); ++k) CHECK(five[k] == once[k % 2]);
+  CHECK(read_stages("unload-reload to q = 0 MPa, 1000 times").size() == 2000);
+}
+
+TEST_CASE("A number of cycles out of range, or of a stage that is no cycle, is refused",
+          "[unit][apps]")
+{
+  for (const char* n :
+       {"0", "-1", "1001", "1000000000", "99999999999999999999", "2.5", ""}) {
+    const std::string text = std::string("unload-reload to q = 0.2 MPa, ") + n + " times";
+    CAPTURE(text);
+    CHECK_THROWS_WITH(read_stages(text), Contains("whole number from 1 to 1000"));
+  }
+  for (const char* text : {"unload-reload to q = 0.2 MPa 5 times",
+                           "unload-reload to q = 0.2 MPa, 5 cycles", "times"})
+    CHECK_THROWS_WITH(read_stages(text), Contains("is written \", 5 times\""));
+  for (const char* text :
+       {"triaxial to axial strain = 2 %, 5 times", "unload to q = 0.2 MPa, 1 time",
+        "axes x = fixed, y = 1 MPa, z = strain-controlled to q = 2 MPa, 2 times"})
+    CHECK_THROWS_WITH(read_stages(text), Contains("only an `unload-reload` is repeated"));
+}
+
+namespace {
+
+/// Stages of a case that has these keys and no others.
+std::vector<dem::LoadingStage> stages_with(const std::vector<std::string>& set)
+{
+  CaseFile file;
+  StageTexts texts;
+  {
+    const auto section = file.section("Loading");
+    declare_stages(file, texts);
+  }
+  file.read_text("subsection Loading\nend\n", "case.prm", set);
+  const auto stages = stages_of(file, texts);
+  // The resolved case is the same case.
+  CaseFile again;
+  StageTexts same;
+  {
+    const auto section = again.section("Loading");
+    declare_stages(again, same);
+  }
+  again.read_text(file.resolved_text(), "resolved.prm");
+  CHECK(same == texts);
+  return stages;
+}
+
+std::string strain(int percent)
+{
+  return "resume to axial strain = " + std::to_string(percent) + " %";
+}
+
+} // namespace
+
+TEST_CASE("An element test has as many stages as its case gives", "[unit][apps]")
+{
+  std::vector<std::string> set{"Loading/stage 1=compression to axial strain = 1 %"};
+  for (int k = 2; k <= 40; ++k)
+    set.push_back("Loading/stage " + std::to_string(k) + "=" + strain(k));
+  CHECK(stages_with(set).size() == 40);
+  set.back() = "Loading/stage 40="; // empty: as one that is not there
+  CHECK(stages_with(set).size() == 39);
+  set.back() = "Loading/stage 41=" + strain(41);
+  CHECK_THROWS_WITH(stages_with(set),
+                    Contains("Loading/stage 41") && Contains("there is no `stage 40`"));
+  CHECK_THROWS_WITH(stages_with({}), Contains("Loading/stage 1: must be given"));
+}
+
+TEST_CASE("A stage that a case does not give any more can be refused", "[unit][apps]")
+{
+  CaseFile file;
+  StageTexts texts;
+  {
+    const auto section = file.section("Loading");
+    declare_stages(file, texts);
+  }
+  const std::string one = "subsection Loading\n  set stage 1 = " + strain(1) + "\n";
+  file.read_text(one + "end\n", "case.prm");
+  // Earlier versions wrote the stages that were not given.
+  CHECK(file.changes_since(one + "  set stage 2 =\n  set stage 12 =\nend\n").empty());
+  const auto changes = file.changes_since(one + "  set stage 2 = " + strain(2) + "\nend\n");
+  REQUIRE(changes.size() == 1);
+  CHECK(changes.front().key == "stage 2");
+  CHECK_THROWS_WITH(file.refuse("Loading", "stage 2", "was done"),
+                    "case.prm: Loading/stage 2, which is not given: was done");
 }
 
 TEST_CASE("A loading stage that is not understood is refused with the forms expected",

@@ -16,13 +16,13 @@ namespace {
 /// Records of simple loading stages; stresses in Pa.
 struct RecordedTest {
   std::vector<dem::LoadingStage> stages;
-  std::vector<std::string> texts;
+  StageTexts texts;
   std::vector<dem::Outcome> outcomes;
   std::vector<StagePoint> points;
 
   void stage(const std::string& text)
   {
-    texts.push_back(text);
+    texts[texts.size() + 1] = text;
     for (const dem::LoadingStage& l : read_stages(text)) {
       stages.push_back(l);
       outcomes.push_back(dem::Outcome::done);
