@@ -88,8 +88,10 @@ std::string report(const SpecimenKeys& k, const dem::Sample& sample)
       << p.whole_porosity << " in the whole region; pressure " << 1e-3 * p.pressure
       << " kPa";
   if (s.compaction == dem::Compaction::confined)
-    out << " (wanted " << 1e-3 * s.pressure << "), friction while packed " << p.friction;
+    out << " (wanted " << 1e-3 * s.pressure << ')';
   if (p.pressure > 0.0) out << ", which the contacts keep: a test begins under it";
+  if (s.compaction == dem::Compaction::confined)
+    out << "; friction while packed " << p.friction;
   if (k.is_granular())
     out << "; granular, without bonds: section Bond has no effect";
   else

@@ -45,6 +45,11 @@ run a
 n_pictures=$(compgen -G "a/fields/plates_*.vtp" | wc -l)
 [ "$n_pictures" -ge 5 ] || fail "pictures by strain: $n_pictures"
 sound a "$n_pictures"
+grep -q '^stress at the start, at the centre: across the loaded diameter .* MPa' a.log || fail "the stress at the start is not said: $(head -8 a.log)"
+for way in across along; do
+  [ "$(records a 'NR == 2 { printf "%.6g", c("stress '$way' at the centre [Pa]") }')" = "$(printf %.6g "$(value a "stress $way at the centre at the start [Pa]")")" ] ||
+    fail "the stress $way at the centre at the start is not that of the first record"
+done
 grep -q '"outcome": "the load fell below its final share"' a/summary.json || fail "the end: $(head -4 a.log)"
 within a "2P/(pi D t) at the peak [Pa]" 3e5 1e6
 within a "bonds broken [-]" 20 2000

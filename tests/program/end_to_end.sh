@@ -24,6 +24,14 @@ head -1 a/history.csv | grep -q '^time \[s\],depth \[m\],depth/D_p \[-\],tip dep
 [ "$(wc -l <a/history.csv)" -gt 150 ] || fail "a line every 0.01 mm of 1.7 mm travel"
 grep -q 'largest energy error' a.log || fail "the closing summary"
 
+# The stress at the start, after settling. A surcharge of 100 kPa adds as much to the vertical stress in the middle,
+# within what a box of a few particles scatters.
+grep -q '^stress at the start, in the middle of the specimen: p ' a.log || fail "the stress at the start is not said: $(cat a.log)"
+"$mergel" pile "$case_file" "${punch[@]}" --set "Pile/final depth=0.05 mm" --set "Far field/surcharge=100 kPa" --output loaded >loaded.log ||
+  fail "with a surcharge: $(cat loaded.log)"
+awk -F'[:,]' -v a="$(grep '"stress z at the start' a/summary.json)" '/"stress z at the start/ { split(a, of_a); print "vertical stress at the start: " of_a[2] + 0 " Pa, under a surcharge of 100 kPa " $2 + 0 " Pa"
+  more = $2 - of_a[2]; exit !(more > 40e3 && more < 160e3) }' loaded/summary.json || fail "the stress under a surcharge: $(cat loaded.log)"
+
 # Repeated from its own resolved case and from its own sample: the same bits.
 "$mergel" pile a/resolved.prm --output b >b.log || fail "from resolved.prm: $(cat b.log)"
 cmp a/history.csv b/history.csv || fail "a repeated run differs"
