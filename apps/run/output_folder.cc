@@ -4,6 +4,7 @@
 #include "apps/case/words.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "dem/io/seal.h"
 #include "dem/io/state/checkpoint.h"
 
 #include <algorithm>
@@ -39,7 +40,6 @@ constexpr std::array<std::string_view, 42> own_files{
     "principal.png",      "chains.png",       "shaft.png",         "profiles.png",
     "stress_path.csv",    "paths.png"};
 constexpr std::string_view own_folder = "fields";
-constexpr std::string_view first_bytes_of_hdf5 = "\x89HDF\r\n\x1a\n";
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& message)
 {
@@ -151,7 +151,7 @@ bool holds_run(const fs::path& folder)
        entry.increment(error)) {
     const fs::path name = entry->path().filename();
     const bool is_checkpoint = (dem::is_checkpoint_name(name) || is_set_aside(name)) &&
-                               begins_with(entry->path(), first_bytes_of_hdf5);
+                               dem::begins_as_sealed(entry->path(), "checkpoint");
     if (is_checkpoint || (final_name(name) != name && is_own_file(final_name(name))))
       return true;
   }

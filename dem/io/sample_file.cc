@@ -68,15 +68,16 @@ Columns to_columns(const Sample& s)
   return c;
 }
 
-/// Bytes of the HDF5 file, made in memory: with a full disk HDF5 1.10.8 crashes at the end
-/// of the program.
+/// Bytes of the HDF5 file with an empty user block, made in memory: with a full disk HDF5
+/// 1.10.8 crashes at the end of the program.
 std::string hdf5_bytes(const Columns& c)
 {
   const Quiet quiet;
   const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "describe a file");
   constexpr std::size_t growth = 1 << 16;
   H5Pset_fapl_core(in_memory, growth, false);
-  Handle file(H5Fcreate(format, H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose,
+  const Handle creation = user_block(seal_room);
+  Handle file(H5Fcreate(format, H5F_ACC_TRUNC, creation, in_memory), H5Fclose,
               "make a file in memory");
   write_array(file, "x", H5T_NATIVE_DOUBLE, c.x.data(), {c.R.size(), 3});
   write_array(file, "R", H5T_NATIVE_DOUBLE, c.R.data(), {c.R.size(), 1});
@@ -99,9 +100,11 @@ std::string hdf5_bytes(const Columns& c)
   write_attribute(file, "pressure", H5T_NATIVE_DOUBLE, &c.pressure);
   write_attribute(file, "friction", H5T_NATIVE_DOUBLE, &c.friction);
   if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw NumericalError("HDF5 cannot flush");
+  // The image begins behind the user block.
   const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-  std::string bytes(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
-  if (bytes.empty() || H5Fget_file_image(file, bytes.data(), bytes.size()) != size)
+  const std::size_t n_data = size > 0 ? static_cast<std::size_t>(size) : 0;
+  std::string bytes(seal_room + n_data, '\0');
+  if (n_data == 0 || H5Fget_file_image(file, bytes.data() + seal_room, n_data) != size)
     throw NumericalError("HDF5 cannot give its bytes");
   file.finish("close a file in memory");
   return bytes;

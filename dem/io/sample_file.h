@@ -26,8 +26,8 @@ struct Sample {
 /// `cell` (3, m, edges of the periodic cell; 0: not periodic), `recipe_keys`,
 /// `recipe_values`; attributes `format`, `version`, `bond_limit`, `porosity`,
 /// `whole_porosity`, `overlap`, `pressure` (Pa), `friction` (while packed). The FNV-1a
-/// checksum of all bytes follows after the HDF5 data, where HDF5 readers ignore it. Equal
-/// samples give equal files, byte for byte. The file is replaced atomically.
+/// checksum of the data is in the user block of HDF5 (dem/io/seal.h). Equal samples give
+/// equal files, byte for byte. The file is replaced atomically.
 /// @throws NumericalError when it cannot be written
 void write_sample(const std::filesystem::path& file, const Sample& sample);
 

@@ -1,5 +1,9 @@
 #include "dem/io/seal.h"
 
+#include "dem/io/readable.h"
+
+#include <algorithm>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 
@@ -8,10 +12,30 @@ namespace mergel::dem {
 namespace {
 
 constexpr std::size_t digits = 16;
+constexpr std::string_view hdf5 = "\x89HDF\r\n\x1a\n"; ///< its first bytes
 
 std::string mark_of(const Seal& seal)
 {
   return "mergel " + seal.kind + ", " + seal.sum + " ";
+}
+
+/// The user block of these data.
+std::string block_of(const Seal& seal, std::string_view data, std::uint64_t sum)
+{
+  std::string block = mark_of(seal) + hexadecimal(sum) + ", " +
+                      std::to_string(data.size()) + " bytes behind these " +
+                      std::to_string(seal_room) + "\n";
+  block.resize(seal_room, '\0');
+  return block;
+}
+
+/// Whether a block that begins with this mark counts more bytes than there are.
+bool counts_more(std::string_view block, std::size_t mark, std::size_t n_found)
+{
+  block.remove_prefix(mark + digits + std::string_view(", ").size());
+  std::uint64_t n = 0;
+  const auto parsed = std::from_chars(block.data(), block.data() + block.size(), n);
+  return parsed.ec == std::errc{} && n > n_found;
 }
 
 } // namespace
@@ -20,7 +44,10 @@ std::string bytes_of(const std::filesystem::path& file)
 {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   const std::streamoff size = in ? std::streamoff(in.tellg()) : -1;
-  if (size < 0) throw InputError("cannot be read. Check its permissions");
+  if (size < 0) {
+    const std::error_code error = reading_error(file);
+    throw InputError(error ? "cannot be read: " + with_remedy(error) : "cannot be read");
+  }
   std::string bytes(static_cast<std::size_t>(size), '\0');
   in.seekg(0);
   in.read(bytes.data(), size);
@@ -65,38 +92,65 @@ std::string hexadecimal(std::uint64_t number)
 
 std::string sealed(std::string bytes, const Seal& seal)
 {
-  const std::string sum = hexadecimal(seal.of(bytes));
-  return std::move(bytes) + mark_of(seal) + sum;
+  const std::string block = seal_block(bytes, seal);
+  bytes.replace(0, seal_room, block);
+  return bytes;
 }
 
-void seal(const std::filesystem::path& file, std::string_view bytes, const Seal& seal)
+std::string seal_block(std::string_view bytes, const Seal& seal)
 {
-  const std::string sum = hexadecimal(seal.of(bytes));
-  std::ofstream out(file, std::ios::binary | std::ios::app);
-  out << mark_of(seal) << sum;
-  out.flush();
-  if (!out) throw NumericalError(file.string() + ": cannot be written; is the disk full?");
+  const std::string_view data = bytes.substr(seal_room);
+  return block_of(seal, data, seal.of(data));
+}
+
+bool begins_as_sealed(const std::filesystem::path& file, std::string_view kind)
+{
+  const std::string mark = "mergel " + std::string(kind) + ", ";
+  std::ifstream in(file, std::ios::binary);
+  std::string start(mark.size(), '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return in.good() && (start == mark || start.starts_with(hdf5));
 }
 
 std::string unsealed(const std::filesystem::path& file, const Seal& seal,
                      std::uint64_t* sum)
 {
-  std::error_code error; // for a name that is too long, or a folder without permission
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw InputError("there is no such file");
-  if (!std::filesystem::is_regular_file(status)) throw InputError("is not a file");
+  if (const std::error_code error = reading_error(file)) {
+    if (error == std::errc::no_such_file_or_directory)
+      throw InputError("there is no such file");
+    if (error == std::errc::is_a_directory || error == std::errc::invalid_seek)
+      throw InputError("is not a file");
+    throw InputError("cannot be read: " + with_remedy(error));
+  }
   std::string bytes = bytes_of(file);
-  const std::string hdf5 = "\x89HDF\r\n\x1a\n", mark = mark_of(seal);
-  if (bytes.compare(0, hdf5.size(), hdf5) != 0)
-    throw DamagedFile("is no " + seal.kind + ": it is not an HDF5 file; " + seal.remedy);
-  const std::size_t tail = mark.size() + digits;
-  if (bytes.size() < tail || bytes.compare(bytes.size() - tail, mark.size(), mark) != 0)
-    throw DamagedFile("is no " + seal.kind + ", or is truncated; " + seal.remedy);
-  const std::string stored = bytes.substr(bytes.size() - digits);
-  bytes.resize(bytes.size() - tail);
-  const std::uint64_t found = seal.of(bytes);
-  if (stored != hexadecimal(found))
-    throw DamagedFile("is damaged (its checksum does not match); " + seal.remedy);
+  const std::string mark = mark_of(seal);
+  const std::string_view all = bytes;
+  const auto refuse = [&](const std::string& why) {
+    throw DamagedFile(why + "; " + seal.remedy);
+  };
+  std::uint64_t found = 0;
+  if (all.starts_with(mark) && all.size() >= seal_room) {
+    const std::string_view data = all.substr(seal_room);
+    if (counts_more(all.substr(0, seal_room), mark.size(), data.size()))
+      refuse("is no " + seal.kind + ", or is truncated");
+    found = seal.of(data);
+    if (all.substr(0, seal_room) != block_of(seal, data, found))
+      refuse("is damaged (its checksum does not match)");
+  } else if (all.starts_with(hdf5)) { // of an earlier version, or of another program
+    const std::size_t end = mark.size() + digits;
+    const std::string_view last = all.substr(all.size() - std::min(end, all.size()));
+    if (!last.starts_with(mark)) refuse("is no " + seal.kind + ", or is truncated");
+    found = seal.of(all.substr(0, all.size() - end));
+    if (last.substr(mark.size()) != hexadecimal(found))
+      refuse("is damaged (its checksum does not match)");
+    bytes.resize(bytes.size() - end);
+  } else {
+    const bool has_block =
+        all.starts_with("mergel ") ||
+        (all.size() > seal_room && all.substr(seal_room).starts_with(hdf5));
+    refuse("is no " + seal.kind +
+           (has_block ? ", or is truncated" : ": it is not an HDF5 file"));
+  }
   if (sum) *sum = found;
   return bytes;
 }

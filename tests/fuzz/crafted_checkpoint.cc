@@ -86,7 +86,7 @@ void craft_checkpoint(const std::filesystem::path& file, const std::string& byte
   craft_hdf5(file, arrays,
              {{"format", 0, 0.0, "mergel checkpoint"}, {"version", H5T_NATIVE_INT, 3.0}},
              choices);
-  dem::seal(file, dem::bytes_of(file), {"checkpoint", "64-bit sum", "", dem::sum_of_words});
+  seal_crafted(file, {"checkpoint", "64-bit sum", "", dem::sum_of_words});
 }
 
 } // namespace mergel::fuzz

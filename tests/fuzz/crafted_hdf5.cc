@@ -1,7 +1,11 @@
 #include "tests/fuzz/crafted_hdf5.h"
 
+#include "tests/fuzz/reader.h"
+
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace mergel::fuzz {
 
@@ -243,12 +247,22 @@ void craft_hdf5(const std::filesystem::path& path, const std::vector<CraftedArra
 {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
+  H5Pset_userblock(creation, dem::seal_room);
+  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
   Choices choose(bytes);
   for (const CraftedArray& array : arrays) add_array(file, choose, array);
   for (const CraftedAttribute& attribute : attributes)
     add_attribute(file, choose, attribute);
   H5Fclose(file);
+  H5Pclose(creation);
+}
+
+void seal_crafted(const std::filesystem::path& file, const dem::Seal& seal)
+{
+  std::string bytes = dem::bytes_of(file);
+  bytes.resize(std::max(bytes.size(), dem::seal_room));
+  write_bytes(file, dem::sealed(std::move(bytes), seal));
 }
 
 } // namespace mergel::fuzz

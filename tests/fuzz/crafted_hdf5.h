@@ -2,6 +2,8 @@
 /// links and values.
 #pragma once
 
+#include "dem/io/seal.h"
+
 #include <hdf5.h>
 
 #include <filesystem>
@@ -32,9 +34,12 @@ struct CraftedAttribute {
   std::string text = {};
 };
 
-/// Writes the file. The bytes choose, name by name, shape, type, layout, link and values;
-/// missing bytes count as 0, and all zeros make the good file.
+/// Writes the file, with a user block for the seal. The bytes choose, name by name, shape,
+/// type, layout, link and values; missing bytes count as 0, and all zeros make the good file.
 void craft_hdf5(const std::filesystem::path& file, const std::vector<CraftedArray>& arrays,
                 const std::vector<CraftedAttribute>& attributes, const std::string& bytes);
+
+/// Seals such a file.
+void seal_crafted(const std::filesystem::path& file, const dem::Seal& seal);
 
 } // namespace mergel::fuzz

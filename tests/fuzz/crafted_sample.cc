@@ -1,11 +1,8 @@
 #include "tests/fuzz/crafted_sample.h"
 
 #include "tests/fuzz/crafted_hdf5.h"
-#include "tests/fuzz/reader.h"
 
-#include <cstdint>
-#include <fstream>
-#include <iterator>
+#include <string_view>
 
 namespace mergel::fuzz {
 
@@ -38,26 +35,13 @@ std::vector<CraftedAttribute> good_attributes()
   return all;
 }
 
-/// The end of a sample file, after the data of HDF5.
-std::string seal_of(const std::string& bytes)
-{
-  std::uint64_t sum = 0xcbf29ce484222325u; // FNV-1a
-  for (const char c : bytes) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  std::string hex;
-  for (int shift = 60; shift >= 0; shift -= 4)
-    hex += "0123456789abcdef"[(sum >> shift) & 15u];
-  return "mergel sample, FNV-1a " + hex;
-}
-
 } // namespace
 
 void craft_sample(const std::filesystem::path& path, const std::string& bytes)
 {
   craft_hdf5(path, good_arrays(), good_attributes(), bytes);
-  std::ifstream in(path, std::ios::binary);
-  std::string whole((std::istreambuf_iterator<char>(in)), {});
-  in.close();
-  write_bytes(path, whole + seal_of(whole));
+  seal_crafted(
+      path, {"sample", "FNV-1a", "", [](std::string_view of) { return dem::fnv_1a(of); }});
 }
 
 } // namespace mergel::fuzz

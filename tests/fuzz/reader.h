@@ -21,7 +21,7 @@ inline void promise(bool holds, const std::string& what)
 
 struct Reader {
   std::string_view name; ///< and folder of its corpus
-  bool is_sealed; ///< the file ends in the sum of its bytes: no changed file is accepted
+  bool is_sealed; ///< the file holds the sum of its bytes: no changed file is accepted
   /// Whether the bytes are accepted; false when InputError refuses them. `file` may be
   /// written. Other exceptions propagate.
   bool (*accepts)(const std::string& bytes, const std::filesystem::path& file);

@@ -59,7 +59,7 @@ ends "sample, a walltime" 1 'mergel sample: --walltime 4h: the job writes no che
 ends "sample, done" 0 '' sample "$pile" "${tiny[@]}" --output sample
 kib=16 ends "sample, the disk is full" 2 'sample\.h5: cannot be written: File too large' sample "$pile" "${tiny[@]}" --output full_sample
 
-ends "pile, a sample with a name too long" 1 'there is no such file' pile "$pile" --set "Specimen/file=$long" --output none
+ends "pile, a sample with a name too long" 1 'cannot be read: File name too long' pile "$pile" --set "Specimen/file=$long" --output none
 ends "pile, the run is unstable" 2 '[a-z]' pile "$pile" "${tiny[@]}" --set "Specimen/file=sample/sample.h5" \
   --set "Pile/penetration rate=2000 m/s" --output fast
 kib=56 ends "pile, the disk is full" 2 '(particles|bonds)_0000\.vtp: cannot be written: File too large' pile "$pile" "${tiny[@]}" \

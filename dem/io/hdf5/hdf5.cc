@@ -2,6 +2,16 @@
 
 namespace mergel::dem::hdf5 {
 
+Handle user_block(std::size_t bytes)
+{
+  const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
+  if (creation >= 0 && H5Pset_userblock(creation, bytes) < 0) {
+    H5Pclose(creation);
+    throw NumericalError("HDF5 cannot leave room at the start of a file");
+  }
+  return Handle(creation, H5Pclose, "describe a file");
+}
+
 Handle create_array(hid_t file, const std::string& name, hid_t type, const Shape& shape,
                     hid_t creation)
 {

@@ -65,6 +65,10 @@ struct Shape {
 
 /// All functions below throw NumericalError, naming what HDF5 cannot do.
 
+/// The settings of a new file whose first bytes HDF5 leaves to the program.
+/// @param bytes 512 or a larger power of two
+Handle user_block(std::size_t bytes);
+
 /// Create an array of this shape.
 Handle create_array(hid_t file, const std::string& name, hid_t type, const Shape& shape,
                     hid_t creation = H5P_DEFAULT);

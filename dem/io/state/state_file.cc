@@ -57,14 +57,16 @@ void all_or_none(const Communicator& comm, F&& f)
 constexpr std::size_t room_for_descriptions = 65536;
 constexpr double timeout = 5.0; ///< with a slow network file system [s]
 
-/// Create the file with its arrays of `rows` rows each; returns the offset of each array.
+/// Create the file with its arrays of `rows` rows each; returns the offset of each array
+/// from the start of the file, behind the room of the seal.
 std::vector<std::uint64_t> lay_out(const fs::path& path, const std::string& kind,
                                    int version, const State& state,
                                    const std::vector<std::uint64_t>& rows)
 {
   using namespace hdf5;
   const Quiet quiet;
-  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+  const Handle creation = user_block(seal_room);
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT), H5Fclose,
               "create " + path.string());
   write_text_attribute(file, "format", "mergel " + kind);
   write_attribute(file, "version", H5T_NATIVE_INT, &version);
@@ -231,7 +233,8 @@ void write_state(const fs::path& file, const std::string& kind, int version,
       if (comm.rank() != 0) return;
       if (!mark.empty())
         SharedFile(path, file, SharedFile::Way::find).remove_mark(mark.front());
-      seal(path, read_back(path, file, pieces), seal_of(kind));
+      const std::string block = seal_block(read_back(path, file, pieces), seal_of(kind));
+      SharedFile(path, file, SharedFile::Way::find).write(block, 0);
     });
   };
   if (comm.rank() != 0) {

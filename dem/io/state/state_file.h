@@ -102,7 +102,7 @@ private:
 
 /// Replace `file` atomically (dem/io/atomic_file.h). Collective; each rank has arrays with
 /// the same names. What the ranks wrote is read back and compared (dem/io/shared_file.h),
-/// then sealed with a checksum of all bytes (dem/io/seal.h).
+/// then sealed with a checksum of its data (dem/io/seal.h).
 /// @throws CollectiveFailure naming the file and the system's reason, or the rank that does
 ///   not see the file or whose rows are lost; an earlier `file` is unchanged
 void write_state(const std::filesystem::path& file, const std::string& kind, int version,

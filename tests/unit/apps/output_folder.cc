@@ -209,11 +209,13 @@ TEST_CASE("A run is known by its case, its checkpoints, what it could not rename
           "lock that it left when it was killed",
           "[unit][apps]")
 {
-  const std::string hdf5 = "\x89HDF\r\n\x1a\n and more";
+  const std::string begun = "mergel checkpoint, and more";
+  const std::string of_earlier_version = "\x89HDF\r\n\x1a\n and more";
   const std::vector<std::pair<std::string, std::string>> marks{
       {"resolved.prm", std::string(CaseFile::first_words_of_resolved) + " And more."},
-      {"checkpoint_000000000300.h5", hdf5},
-      {"checkpoint_000000000300.h5.aside-2", hdf5},
+      {"checkpoint_000000000300.h5", begun},
+      {"checkpoint_000000000300.h5", of_earlier_version},
+      {"checkpoint_000000000300.h5.aside-2", begun},
       {".history.partial.csv", "x"},
       {".mergel.lock", "process 7"}};
   for (const auto& [mark, text] : marks) {
@@ -334,7 +336,7 @@ TEST_CASE("A checkpoint set aside does not replace those set aside before", "[un
 
   // each of them counts as a file of an earlier run
   fs::remove(beside(".aside"));
-  std::ofstream(beside(".aside-2"), std::ios::binary) << "\x89HDF\r\n\x1a\n cut";
+  std::ofstream(beside(".aside-2"), std::ios::binary) << "mergel checkpoint, cut";
   create_file(beside(".aside-two"));
   CHECK_THAT(refusal(folder.path, Earlier::keep),
              Contains("holds an earlier run (checkpoint_000000000300.h5.aside-2)"));
