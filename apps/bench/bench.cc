@@ -7,6 +7,7 @@
 #include "apps/run/ranks.h"
 #include "dem/assembly/distribute.h"
 #include "dem/io/atomic_file.h"
+#include "dem/io/readable.h"
 #include "dem/io/seal.h"
 #include "dem/io/state/checkpoint.h"
 #include "dem/text.h"
@@ -15,11 +16,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <map>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include <unistd.h>
@@ -358,11 +361,18 @@ void check_place(const char* option, const std::filesystem::path& file)
   require(is_there || error != std::errc::filename_too_long,
           "mergel bench: " + std::string(option) + ": " + error.message() +
               ". Give a shorter name");
-  require(::access(folder.c_str(), W_OK | X_OK) == 0 &&
-              std::filesystem::is_directory(folder, error),
-          "mergel bench: " + std::string(option) + " " + file.string() + ": the folder " +
-              folder.string() +
-              " does not exist or cannot be written. Create it, or name another");
+  const std::string in_front = "mergel bench: " + std::string(option) + " " +
+                               file.string() + ": the folder " + folder.string();
+  const auto kind = std::filesystem::status(folder, error).type();
+  require(kind != std::filesystem::file_type::not_found,
+          in_front + " does not exist. Create it, or name another");
+  require(kind == std::filesystem::file_type::directory ||
+              kind == std::filesystem::file_type::none, // it cannot be reached
+          in_front + " is no folder. Name another");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError(in_front + " cannot be written: " +
+                     std::generic_category().message(errno) + ". Name another");
+  if (is_there) dem::require_readable(file);
 }
 
 /// Refuse to replace a file that this job has not written, before the measurement.

@@ -1,6 +1,7 @@
 #include "apps/case/measured_elasticity.h"
 
 #include "dem/error.h"
+#include "dem/io/readable.h"
 
 #include <charconv>
 #include <fstream>
@@ -30,10 +31,12 @@ std::optional<double> number(std::string_view object, const std::string& name)
 MeasuredElasticity measured_elasticity(const std::filesystem::path& folder)
 {
   const std::filesystem::path file = folder / "summary.json";
+  if (const std::error_code error = dem::reading_error(file))
+    throw InputError(error == std::errc::no_such_file_or_directory
+                         ? "has no summary.json. Name the results folder of a finished "
+                           "`mergel element` test"
+                         : "its summary.json cannot be read: " + dem::with_remedy(error));
   std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw InputError("has no summary.json. Name the results folder of a finished `mergel "
-                     "element` test");
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   // A stage is an object without objects in it.
   for (auto from = text.find('{', 1); from != std::string::npos;

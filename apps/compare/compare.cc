@@ -9,10 +9,13 @@
 #include "dem/io/atomic_file.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <iostream>
 #include <ostream>
 #include <set>
 #include <system_error>
+
+#include <unistd.h>
 
 namespace mergel::apps {
 
@@ -38,16 +41,22 @@ void check_output(const CompareOptions& o)
             "mergel compare: " + (o.output / name).string() +
                 ": exists. Take --overwrite to replace it, or another --output.");
   fs::create_directories(o.output, error);
-  require(fs::is_directory(o.output),
+  std::error_code ignored;
+  require(fs::is_directory(o.output, ignored),
           "mergel compare: --output " + o.output.string() + ": cannot be made a folder" +
               (error ? " (" + error.message() + ")" : "") + ". Choose another.");
+  if (::access(o.output.c_str(), W_OK | X_OK) != 0)
+    throw InputError("mergel compare: --output " + o.output.string() +
+                     ": cannot be written: " + std::generic_category().message(errno) +
+                     ". Choose another.");
 }
 
 std::vector<std::string> checked_labels(const CompareOptions& o)
 {
   std::set<fs::path> seen;
+  std::error_code error; // a folder that cannot be reached is refused where it is read
   for (const std::string& folder : o.folders)
-    require(!fs::is_directory(folder) || seen.insert(fs::canonical(folder)).second,
+    require(!fs::is_directory(folder, error) || seen.insert(fs::canonical(folder)).second,
             "mergel compare: " + folder + ": is given twice. Leave one out.");
   if (o.labels.empty()) return folder_labels(o.folders);
   require(o.labels.size() == o.folders.size(),

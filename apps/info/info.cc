@@ -12,6 +12,7 @@
 #include "apps/run/ranks.h"
 #include "apps/run/results.h"
 #include "apps/triaxial/triaxial_output.h"
+#include "dem/io/readable.h"
 #include "dem/io/sample_file.h"
 #include "dem/io/state/checkpoint.h"
 #include "dem/io/table.h"
@@ -52,6 +53,7 @@ std::string size_text(const fs::path& file)
 
 boost::property_tree::ptree read_json(const fs::path& file)
 {
+  dem::require_readable(file);
   boost::property_tree::ptree tree;
   boost::property_tree::read_json(file.string(), tree);
   return tree;
@@ -114,6 +116,8 @@ std::optional<std::string> failure_in(const fs::path& folder)
   if (!fs::exists(folder / "failed.json", error)) return {};
   try {
     return read_json(folder / "failed.json").get<std::string>("failure");
+  } catch (const InputError& e) {
+    return e.what();
   } catch (const std::exception& e) {
     return std::string("failed.json cannot be read: ") + e.what();
   }
@@ -122,7 +126,8 @@ std::optional<std::string> failure_in(const fs::path& folder)
 std::string state_of(const fs::path& folder, bool is_complete)
 {
   if (const auto failure = failure_in(folder)) return "failed: " + *failure;
-  if (!fs::exists(folder / "summary.json")) return "not finished";
+  std::error_code error;
+  if (!fs::exists(folder / "summary.json", error)) return "not finished";
   return is_complete ? "finished" : "incomplete";
 }
 
@@ -187,7 +192,11 @@ public:
   }
 
 private:
-  bool has(const char* name) const { return fs::exists(folder_ / name); }
+  bool has(const char* name) const
+  {
+    std::error_code error; // the folder itself can be reached: own_files_in()
+    return fs::exists(folder_ / name, error);
+  }
   void judge(const std::string& name, const std::string& wrong, const std::string& good)
   {
     is_good_ = is_good_ && wrong.empty();
@@ -247,8 +256,11 @@ private:
     if (own_.frames.empty()) return;
     std::string wrong;
     for (const fs::path& frame : own_.frames)
-      if (wrong.empty() && fs::exists(frame) && !is_whole_vtk(frame))
-        wrong = frame.string() + ": is cut";
+      if (wrong.empty())
+        wrong = fault([&] {
+          require(!dem::is_readable(frame) || is_whole_vtk(frame),
+                  frame.string() + ": is cut");
+        });
     judge("fields", wrong, std::to_string(own_.frames.size()) + " files, none is cut");
   }
 
@@ -261,6 +273,8 @@ private:
       if (const auto made = tree.get_child_optional("made by"))
         line("made by", made->get("program", "?") + ", " + made->get("date", "?") + " on " +
                             made->get("host", "?") + ", ranks: " + made->get("ranks", "?"));
+    } catch (const InputError& e) {
+      wrong = e.what();
     } catch (const std::exception& e) {
       wrong = std::string("summary.json cannot be read: ") + e.what();
     }
@@ -313,7 +327,8 @@ int run_info(const fs::path& path)
 {
   bool is_good = true;
   on_first_rank([&] {
-    if (fs::is_directory(path)) {
+    std::error_code error; // what cannot be reached is refused where it is read
+    if (fs::is_directory(path, error)) {
       is_good = FolderReport(path).print();
       return;
     }

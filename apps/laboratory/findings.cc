@@ -2,6 +2,7 @@
 
 #include "apps/case/words.h"
 #include "dem/error.h"
+#include "dem/io/readable.h"
 
 #ifndef BOOST_BIND_GLOBAL_PLACEHOLDERS
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS // else the header prints a line when it is compiled
@@ -41,8 +42,7 @@ double Findings::at(const std::string& name) const
 std::optional<RunFindings> read_findings(const std::filesystem::path& folder)
 {
   const auto file = folder / "summary.json";
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) return {};
+  if (!dem::is_readable(file)) return {};
   Tree tree;
   try {
     boost::property_tree::read_json(file.string(), tree);

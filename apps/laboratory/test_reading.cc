@@ -3,6 +3,7 @@
 #include "apps/laboratory/stages.h"
 #include "dem/element/element_analysis.h"
 #include "dem/error.h"
+#include "dem/io/readable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -297,7 +298,7 @@ TestReading reading_of(const dem::Table& history, const TestCase& test_case,
 
 TestReading read_test(const std::filesystem::path& folder, const std::string& label)
 {
-  require(std::filesystem::is_directory(folder), folder.string() + ": is no folder.");
+  dem::require_folder(folder);
   const dem::Table history = dem::read_table(folder / "history.csv");
   const TestCase test_case = read_test_case(folder);
   TestReading r = reading_of(history, test_case, read_findings(folder));
@@ -310,7 +311,7 @@ std::vector<std::string> folder_labels(const std::vector<std::string>& folders)
 {
   std::vector<std::string> names;
   for (const std::string& folder : folders) {
-    require(std::filesystem::is_directory(folder), folder + ": is no folder.");
+    dem::require_folder(folder);
     names.push_back(std::filesystem::canonical(folder).filename().string());
   }
   std::vector<std::string> sorted = names;

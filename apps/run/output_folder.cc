@@ -4,6 +4,7 @@
 #include "apps/case/words.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "dem/io/readable.h"
 #include "dem/io/seal.h"
 #include "dem/io/state/checkpoint.h"
 
@@ -282,7 +283,9 @@ void OutputFolder::commit(const std::vector<fs::path>& inputs)
 OwnFiles own_files_in(const fs::path& folder)
 {
   OwnFiles found;
-  std::error_code error; // a folder that cannot be read counts as empty
+  dem::require_folder(folder);
+  if (is_real_folder(folder / own_folder)) dem::require_folder(folder / own_folder);
+  std::error_code error; // a folder that goes meanwhile counts as empty
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const fs::path name = entry->path().filename();

@@ -83,6 +83,7 @@ struct OwnFiles {
   std::vector<std::filesystem::path> frames; ///< finished ones, in fields/
   std::vector<std::filesystem::path> aside;  ///< checkpoints set aside, among the files
 };
+/// @throws InputError when the folder, or fields/ in it, cannot be read
 OwnFiles own_files_in(const std::filesystem::path& folder);
 
 } // namespace mergel::apps

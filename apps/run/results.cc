@@ -3,6 +3,7 @@
 #include "apps/case/case_scan.h"
 #include "apps/case/words.h"
 #include "dem/error.h"
+#include "dem/io/readable.h"
 #include "dem/io/state/checkpoint.h"
 #include "dem/io/vtk.h"
 
@@ -92,7 +93,9 @@ std::vector<std::string> missing_in(const fs::path& folder, const std::string& p
     for (const dem::SeriesEntry& entry : dem::read_series(folder / pvd))
       if (!is_there(folder / entry.file)) missing.push_back(entry.file.string());
   } catch (const InputError&) {
-    missing.push_back(pvd);
+    const std::error_code error = dem::reading_error(folder / pvd);
+    const bool is_absent = !error || error == std::errc::no_such_file_or_directory;
+    missing.push_back(is_absent ? pvd : pvd + " (" + error.message() + ")");
   }
   return missing;
 }

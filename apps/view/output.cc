@@ -2,9 +2,13 @@
 
 #include "apps/laboratory/test_reading.h"
 #include "dem/error.h"
+#include "dem/io/readable.h"
 
+#include <cerrno>
 #include <iostream>
 #include <system_error>
+
+#include <unistd.h>
 
 namespace mergel::apps {
 
@@ -12,20 +16,30 @@ namespace fs = std::filesystem;
 
 fs::path picture_folder(const Options& options)
 {
-  if (options.output.empty()) return options.folders.front();
-  std::error_code error;
-  fs::create_directories(options.output, error);
-  require(fs::is_directory(options.output),
-          "--output " + options.output.string() + ": cannot be made a folder" +
+  const bool is_asked = !options.output.empty();
+  const fs::path folder = is_asked ? options.output : fs::path(options.folders.front());
+  std::error_code error, ignored;
+  if (is_asked) fs::create_directories(folder, error);
+  require(fs::is_directory(folder, ignored),
+          "--output " + folder.string() + ": cannot be made a folder" +
               (error ? " (" + error.message() + ")" : "") + ". Choose another.");
-  return options.output;
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError((is_asked ? "--output " : "") + folder.string() +
+                     ": cannot be written: " + std::generic_category().message(errno) +
+                     ". Choose another folder with --output.");
+  return folder;
 }
 
 void save(const Options& options, Page& page, const fs::path& png)
 {
   std::error_code error;
-  require(options.output.empty() || !fs::exists(fs::symlink_status(png, error)) ||
-              is_picture_of_view(png),
+  const bool is_earlier =
+      !options.output.empty() && fs::exists(fs::symlink_status(png, error));
+  if (const auto unread = is_earlier ? dem::reading_error(png) : std::error_code())
+    throw InputError(
+        png.string() + ": exists, and mergel-view cannot read whether it has made it: " +
+        unread.message() + ". Move it away, or choose another folder with --output.");
+  require(!is_earlier || is_picture_of_view(png),
           png.string() +
               ": exists, and this version of mergel-view has not made it. Move it "
               "away, or choose another folder with --output.");

@@ -10,12 +10,10 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>
-#include <vtkErrorCode.h>
 #include <vtkImageShrink3D.h>
 #include <vtkPNGWriter.h>
 #include <vtkPoints.h>
@@ -24,6 +22,7 @@
 #include <vtkProperty2D.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
 namespace mergel::apps {
@@ -219,22 +218,18 @@ void Page::save(const std::filesystem::path& png)
   average->SetShrinkFactors(oversampling, oversampling, 1);
   average->MeanOn();
 
-  dem::replace_file(png, [&](const std::filesystem::path& temporary) {
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetInputConnection(average->GetOutputPort());
-    writer->SetFileName(temporary.c_str());
-    writer->AddText("Software", software);
-    writer->Write();
-    if (writer->GetErrorCode() != vtkErrorCode::NoError)
-      throw NumericalError(png.string() + ": cannot be written: " +
-                           vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()) +
-                           ".");
-    std::ifstream in(temporary, std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-    std::ofstream out(temporary, std::ios::binary);
-    if (!(out << with_resolution(bytes, dots_per_inch) << std::flush))
-      throw NumericalError(png.string() + ": cannot be written.");
-  });
+  // In memory: VTK takes a forbidden folder for a full disk.
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputConnection(average->GetOutputPort());
+  writer->WriteToMemoryOn();
+  writer->AddText("Software", software);
+  writer->Write();
+  vtkUnsignedCharArray* result = writer->GetResult();
+  if (result == nullptr || result->GetNumberOfValues() == 0)
+    throw NumericalError(png.string() + ": VTK makes no picture of its drawing.");
+  const std::string bytes(reinterpret_cast<const char*>(result->GetPointer(0)),
+                          static_cast<std::size_t>(result->GetNumberOfValues()));
+  dem::replace_file(png, with_resolution(bytes, dots_per_inch));
 }
 
 bool is_picture_of_view(const std::filesystem::path& png)

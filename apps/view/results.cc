@@ -2,6 +2,7 @@
 
 #include "apps/view/round_off.h"
 #include "dem/error.h"
+#include "dem/io/readable.h"
 #include "dem/io/vtk.h"
 
 #include <cmath>
@@ -90,7 +91,7 @@ enum class Empty { refused, allowed };
 template <class Reader>
 auto read(const fs::path& file, Empty empty = Empty::refused)
 {
-  require(fs::is_regular_file(file),
+  require(dem::is_readable(file),
           file.string() + ": does not exist, though the series lists it. Copy the whole "
                           "results folder, 'fields' included.");
   vtkNew<Reader> reader;
@@ -134,7 +135,7 @@ fs::path file_at(double time, const fs::path& pvd)
 /// The entry of this number in particles.pvd, and its number from 0.
 std::pair<dem::SeriesEntry, std::size_t> entry_of(const fs::path& folder, int number)
 {
-  require(fs::is_directory(folder), folder.string() + ": is no folder.");
+  dem::require_folder(folder);
   const auto entries = series(folder / "particles.pvd");
   const int n = static_cast<int>(entries.size());
   const int chosen = number < 0 ? n + number : number;
@@ -174,7 +175,7 @@ ResultFrame read_frame(const fs::path& folder, int number)
 ContinuumFrame read_continuum(const fs::path& folder, double time)
 {
   ContinuumFrame frame;
-  if (!fs::exists(folder / "fields.pvd")) return frame;
+  if (!dem::is_readable(folder / "fields.pvd")) return frame;
   frame.section = read<vtkXMLImageDataReader>(file_at(time, folder / "fields.pvd"));
   const fs::path contacts = file_at(time, folder / "contacts.pvd");
   frame.contacts = read<vtkXMLPolyDataReader>(contacts);
@@ -191,7 +192,7 @@ SpecimenFrame read_specimen(const fs::path& folder, int number)
   frame.time = entry.time;
   frame.particles = read_particles(folder / entry.file);
   frame.platens = read<vtkXMLPolyDataReader>(file_at(frame.time, folder / "platens.pvd"));
-  if (fs::exists(folder / "membrane.pvd"))
+  if (dem::is_readable(folder / "membrane.pvd"))
     frame.membrane =
         read<vtkXMLPolyDataReader>(file_at(frame.time, folder / "membrane.pvd"));
   return frame;

@@ -18,6 +18,7 @@
 #include "apps/view/pile/chart.h"
 #include "apps/view/pile/draw_pile.h"
 #include "dem/error.h"
+#include "dem/io/readable.h"
 #include "dem/io/table.h"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ private:
 
 dem::Table history_of(const fs::path& folder)
 {
-  require(fs::is_directory(folder), folder.string() + ": is no folder.");
+  dem::require_folder(folder);
   dem::Table history = dem::read_table(folder / "history.csv");
   if (history.is_last_line_cut)
     std::cerr

@@ -2,6 +2,7 @@
 
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "dem/io/readable.h"
 #include "dem/io/seal.h"
 #include "dem/text.h"
 
@@ -30,6 +31,7 @@ std::string remark_on(const HistoryMark& mark)
 /// The part of a history before the mark; of one that begins there its first two lines.
 std::string begun(const std::filesystem::path& file, const HistoryMark& mark)
 {
+  require_readable(file);
   std::ifstream in(file, std::ios::binary);
   const std::string all((std::istreambuf_iterator<char>(in)), {});
   const std::string remark = remark_on(mark) + '\n';

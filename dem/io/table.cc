@@ -1,6 +1,7 @@
 #include "dem/io/table.h"
 
 #include "dem/error.h"
+#include "dem/io/readable.h"
 #include "dem/text.h"
 
 #include <algorithm>
@@ -142,10 +143,8 @@ namespace {
 
 std::string read_text(const std::filesystem::path& file)
 {
+  require_readable(file);
   std::ifstream in(file, std::ios::binary);
-  std::error_code error; // for a name that is too long, or a folder without permission
-  require(std::filesystem::is_regular_file(file, error) && in.good(),
-          file.string() + ": cannot be read. Check the name and its permissions.");
   std::ostringstream text;
   if (in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
   try {

@@ -3,12 +3,12 @@
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
 #include "dem/io/grid_file.h"
+#include "dem/io/readable.h"
 #include "dem/version.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <set>
 #include <stdexcept>
 
@@ -238,8 +238,7 @@ void Series::write() const
 
 std::vector<SeriesEntry> read_series(const fs::path& pvd)
 {
-  require(fs::is_regular_file(pvd) && std::ifstream(pvd).good(),
-          pvd.string() + ": cannot be read. Check the name and its permissions.");
+  require_readable(pvd);
   const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
       vtkXMLUtilities::ReadElementFromFile(pvd.c_str()));
   vtkXMLDataElement* collection =

@@ -4,9 +4,11 @@
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/data_out.h>
 
+#include <cerrno>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 namespace mergel::fem {
 
@@ -70,13 +72,15 @@ void write_vtu(const ElasticSolid& solid, const NodalField& u, const NodalField&
   out.write_vtu(text);
   std::string vtu = text.str();
   if (!made_by.empty()) add_field_data(vtu, "made by", made_by);
+  errno = 0;
   std::ofstream file(path, std::ios::binary);
   file << vtu;
   file.close();
   if (!file)
-    throw std::runtime_error("far field output " + path +
-                             ": cannot be written; is the folder there, writable, and the "
-                             "disk not full?");
+    throw std::runtime_error(
+        "far field output " + path +
+        ": cannot be written: " + std::generic_category().message(errno) +
+        ". Check that the folder exists, its permissions, and the free space of the disk.");
 }
 
 } // namespace mergel::fem

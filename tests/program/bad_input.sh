@@ -163,7 +163,7 @@ sample_set()
 head='diameter [mm],passing [%]'
 sizes() { printf '%s\n' "$head" "$@" >sizes.csv; }
 curve='--set Specimen/size table = sizes\.csv: .*sizes\.csv'
-sample_set "a size table that does not exist" "$curve: cannot be read\. .*" "Specimen/size table=sizes.csv"
+sample_set "a size table that does not exist" "$curve: cannot be read: No such file or directory\. .*" "Specimen/size table=sizes.csv"
 sizes 0.1,0 0.2,40 0.15,100
 sample_set "sizes that do not ascend" "$curve:4: diameter = 0\.15 mm: must be above .*" \
   "Specimen/size table=sizes.csv"
@@ -246,7 +246,7 @@ cp "$root/apps/cases/bond_fig5a.prm" bond.prm
 path='bond\.prm:[0-9]+: Loading/path = .*'
 corner() { printf '%s\n' "$@" >bond_fig5a.csv; }
 head='u_n [m],u_s [m],theta [rad]'
-refuse "path that does not exist" "$path: .*bond_fig5a\.csv: cannot be read\. .*" bond bond.prm --output out
+refuse "path that does not exist" "$path: .*bond_fig5a\.csv: cannot be read: No such file or directory\. .*" bond bond.prm --output out
 corner 'u_n [MPa],u_s [m],theta [rad]' 0.1,0,0
 refuse "path in a wrong unit" "$path: .*column 'u_n': \[MPa\] for a column in \[m\]: .*wrong dimension.*" bond bond.prm --output out
 corner 'u_n,u_s [m],theta [rad]' 0.1,0,0

@@ -50,7 +50,7 @@ kib=1 ends "bench, the disk is full" 2 'block\.txt: cannot be written: File too 
 
 ends "bond, done" 0 '' bond "$bond" --output bond
 ends "bond, a results folder with a name too long" 1 'cannot be created: File name too long' bond "$bond" --output "$long"
-ends "bond, a path with a name too long" 1 'cannot be read' bond "$bond" --set "Loading/path=$long" --output none
+ends "bond, a path with a name too long" 1 'cannot be read: File name too long' bond "$bond" --set "Loading/path=$long" --output none
 kib=8 ends "bond, the disk is full" 2 'history\.csv: cannot be written any further' bond "$bond" --output full_bond
 
 ends "bond, a walltime" 1 'mergel bond: --walltime 4h: the job writes no checkpoints' bond "$bond" --walltime 4h --output none

@@ -116,4 +116,32 @@ code=0; "$view" --output out sheared >log 2>&1 || code=$?
 [ $code -eq 1 ] && grep -q 'out/element.png: exists, and this version of mergel-view has not made it' log &&
   [ "$(cat out/element.png)" = mine ] || fail "a picture of the user: $code $(cat log)"
 
+# What the permissions forbid is neither absent nor a full disk. They do not bind root, without these rights.
+bound() {
+  if [ "$(id -u)" -ne 0 ]; then "$@"
+  else setpriv --bounding-set=-dac_override,-dac_read_search --inh-caps=-dac_override,-dac_read_search "$@"; fi
+}
+forbidden() {
+  local what=$1 code=0
+  shift
+  bound "$view" "$@" >log 2>&1 || code=$?
+  [ $code -eq 1 ] && [ "$(wc -l <log)" -eq 1 ] && grep -q -- "$what" log || fail "wanted \"$what\", exit 1: $code $(cat log)"
+}
+refused 'sheared/history.csv/here: is no folder' sheared/history.csv/here
+trap 'chmod -R u+rwX "$work"; rm -rf "$work"' EXIT
+echo x >ours; chmod 000 ours
+if [ "$(id -u)" -eq 0 ] && ! command -v setpriv >/dev/null || bound cat ours >/dev/null 2>&1; then
+  echo "view_element: permissions cannot be made to bind, and are left out"
+else
+  chmod 555 sheared
+  forbidden 'sheared: cannot be written: Permission denied\. Choose another folder with --output' sheared
+  makes element.png sheared
+  mkdir kept; chmod 555 kept
+  forbidden '--output kept: cannot be written: Permission denied\. Choose another folder' --output kept sheared
+  chmod 755 sheared; chmod 000 sheared/history.csv
+  forbidden 'sheared/history\.csv: cannot be read: Permission denied\. Check its permissions' --output out sheared
+  chmod 644 sheared/history.csv; chmod 000 sheared
+  forbidden 'sheared: cannot be read: Permission denied' --output out sheared
+fi
+
 echo "view_element: all checks hold"

@@ -2,6 +2,7 @@
 
 #include "apps/view/round_off.h"
 #include "dem/error.h"
+#include "dem/io/readable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,10 +21,10 @@ class Summary {
 public:
   explicit Summary(fs::path file) : file_(std::move(file))
   {
-    std::ifstream in(file_);
-    require(fs::is_regular_file(file_) && in.good(),
-            file_.string() + ": cannot be read. Copy the whole results folder, or let the "
+    require(dem::is_readable(file_),
+            file_.string() + ": does not exist. Copy the whole results folder, or let the "
                              "run end first.");
+    std::ifstream in(file_);
     text_.assign(std::istreambuf_iterator<char>(in), {});
   }
 

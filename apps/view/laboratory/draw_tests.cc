@@ -9,6 +9,7 @@
 #include "apps/view/results.h"
 #include "apps/view/specimen.h"
 #include "dem/error.h"
+#include "dem/io/readable.h"
 
 #include <fstream>
 #include <iostream>
@@ -35,7 +36,7 @@ bool has_record(const fs::path& table)
 void draw_bands(const Options& options, const SpecimenFrame& frame)
 {
   const fs::path file = fs::path(options.folders.front()) / "localisation.csv";
-  if (!fs::exists(file)) {
+  if (!dem::is_readable(file)) {
     std::cout << "no localisation.png: the folder holds no localisation.csv\n";
     return;
   }
@@ -92,7 +93,7 @@ void draw_triaxial(const Options& options, const Stages& stages,
 {
   const fs::path folder = options.folders.front();
   const bool is_one = histories.size() == 1;
-  const bool has_pictures = is_one && fs::exists(folder / "particles.pvd");
+  const bool has_pictures = is_one && dem::is_readable(folder / "particles.pvd");
   Options of_panels = options;
   of_panels.has_frame = options.has_frame && !has_pictures;
   SpecimenFrame frame;
@@ -113,7 +114,7 @@ void draw_brazilian(const Options& options, const std::vector<dem::Table>& histo
 {
   const fs::path folder = options.folders.front();
   const bool is_one = histories.size() == 1;
-  const bool has_pictures = is_one && fs::exists(folder / "particles.pvd");
+  const bool has_pictures = is_one && dem::is_readable(folder / "particles.pvd");
   Options of_panels = options;
   of_panels.has_frame = options.has_frame && !has_pictures;
   DiscFrame frame;

@@ -5,6 +5,7 @@
 #include "apps/view/plot.h"
 #include "apps/view/round_off.h"
 #include "dem/error.h"
+#include "dem/io/readable.h"
 #include "dem/io/table.h"
 
 #include <cmath>
@@ -53,7 +54,7 @@ private:
 /// None where the file is missing or has no line yet.
 std::optional<dem::Table> profile_in(const fs::path& folder, const char* name)
 {
-  if (!fs::exists(folder / name)) return {};
+  if (!dem::is_readable(folder / name)) return {};
   try {
     return dem::read_table(folder / name);
   } catch (const mergel::InputError&) { // a heading alone
