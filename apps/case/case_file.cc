@@ -4,6 +4,7 @@
 
 #include "apps/case/case_keys.h"
 #include "apps/case/units.h"
+#include "apps/case/word_list.h"
 #include "apps/case/words.h"
 #include "dem/error.h"
 
@@ -22,6 +23,22 @@ std::string violation(const Range& range, const std::string& range_text,
 {
   return "must satisfy " + range_text + ". " +
          (range.remedy.empty() ? sentence : range.remedy);
+}
+
+/// A name without the double quotes around it.
+std::string unquoted(const std::string& name)
+{
+  const bool is_quoted = name.size() > 2 && name.front() == '"' && name.back() == '"';
+  return is_quoted ? name.substr(1, name.size() - 2) : name;
+}
+
+/// @param base where a relative name starts
+/// @throws InputError when a case file cannot hold it
+std::filesystem::path absolute(const std::string& name, const std::filesystem::path& base)
+{
+  const std::filesystem::path full = (base / name).lexically_normal();
+  require_writable(full.string());
+  return full;
 }
 
 } // namespace
@@ -302,11 +319,29 @@ void CaseFile::path(const std::string& key, std::filesystem::path& target,
        .parse = [=, &target](const std::string& text, const std::filesystem::path& base) {
          if (is_required && text.empty())
            throw InputError("must not be empty. " + sentence);
-         const auto full =
-             text.empty() ? std::filesystem::path{} : (base / text).lexically_normal();
-         require_writable(full.string());
-         target = full;
-         return full.string();
+         target = text.empty() ? std::filesystem::path{} : absolute(unquoted(text), base);
+         return target.string();
+       }});
+}
+
+void CaseFile::paths(const std::string& key, std::vector<std::filesystem::path>& targets,
+                     const std::string& sentence)
+{
+  targets.clear();
+  impl_->add(
+      {.name = key,
+       .unit = "-",
+       .allowed = "paths",
+       .sentence = sentence,
+       .parse = [&targets](const std::string& text, const std::filesystem::path& base) {
+         targets.clear();
+         std::vector<std::string> names;
+         for (const std::string& word : words_of(text)) {
+           if (word.empty()) throw InputError("has a name without a letter. Leave it out");
+           targets.push_back(absolute(word, base));
+           names.push_back(as_word(targets.back().string()));
+         }
+         return joined(names, " ");
        }});
 }
 

@@ -180,9 +180,15 @@ public:
 
   /// A file or folder; may be empty unless it must be given. A relative path in the case
   /// file starts at the case file's folder, one from --set or a default at the working
-  /// directory; the target is absolute. The caller checks whether it exists.
+  /// directory; the target is absolute. Double quotes around it are left out. The caller
+  /// checks whether it exists.
   void path(const std::string& key, std::filesystem::path& target,
             const std::string& sentence, Default standard = Default::present);
+
+  /// Files or folders, none by default, as a list of words (apps/case/word_list.h): a name
+  /// with blanks stands in double quotes. Otherwise as path().
+  void paths(const std::string& key, std::vector<std::filesystem::path>& targets,
+             const std::string& sentence);
 
   /// Read the file, then the overrides ("Section/key=value", from --set), and set every
   /// bound variable. Nothing is written anywhere.

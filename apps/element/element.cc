@@ -78,8 +78,13 @@ private:
 /// Of the stages only later ones may change, see check_restart().
 std::vector<std::string> ElementJob::free_keys() const
 {
-  return {"Loading/stage N",    "Loading/strain limit",  "Analysis/secant from",
-          "Analysis/secant to", "Analysis/yield offset", "Analysis/critical states"};
+  return {"Loading/stage N",
+          "Loading/strain limit",
+          "Analysis/secant from",
+          "Analysis/secant to",
+          "Analysis/yield offset",
+          "Analysis/critical states",
+          "Analysis/critical state values"};
 }
 
 /// Refuse a change of the stages up to the present one.
@@ -94,7 +99,7 @@ void ElementJob::check_restart(const CaseFile& file, const Restart& restart) con
   ElementCase earlier;
   apps::declare(earlier_file, earlier);
   earlier_file.read_text(restart.checkpoint.label.case_text, restart.file.string());
-  earlier.critical_text.clear(); // those runs may be gone; only the stages are needed
+  earlier.critical_folders.clear(); // those runs may be gone; only the stages are needed
   apps::complete(earlier_file, earlier);
   const auto n = load_outcomes(restart.checkpoint.state, earlier.stages.size()).size();
   if (!may_go_on(earlier.stages, case_.stages, n))

@@ -3,6 +3,7 @@
 #include "apps/case/motion_keys.h"
 #include "apps/case/units.h"
 #include "apps/case/unusual.h"
+#include "apps/case/word_list.h"
 #include "apps/case/words.h"
 #include "apps/specimen/specimen.h"
 #include "dem/error.h"
@@ -10,9 +11,12 @@
 #include "dem/text.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
+#include <string>
 
 namespace mergel::apps {
 
@@ -69,10 +73,15 @@ void declare_analysis(CaseFile& file, ElementCase& c)
 {
   const auto section = file.section("Analysis");
   declare(file, c.analysis);
-  file.text(
-      "critical states", c.critical_text,
-      "Results folders of other element runs, separated by blanks: the critical state line "
-      "is fitted to their final states and that of this run.");
+  file.paths(
+      "critical states", c.critical_folders,
+      "Results folders of other element runs, separated by blanks, one with a blank in its "
+      "name in double quotes: the critical state line is fitted to their final states and "
+      "that of this run.");
+  file.text("critical state values", c.critical_values,
+            "Folder, p [Pa], q [Pa] and void ratio of each of these states, set in a "
+            "resolved case: a run that is continued, or where a folder is gone, needs no "
+            "file.");
 }
 
 /// Refuse a cell that the strain limit would make too small for its particles.
@@ -105,6 +114,58 @@ dem::CriticalState last_state(const CaseFile& file, const std::filesystem::path&
     file.refuse("Analysis", "critical states",
                 folder.string() + " holds no results of an element test: " + e.what());
   }
+}
+
+/// The states in a resolved case, by their folders.
+std::map<std::string, dem::CriticalState> known_states(const CaseFile& file,
+                                                       const std::string& text)
+{
+  std::map<std::string, dem::CriticalState> known;
+  try {
+    const std::vector<std::string> words = words_of(text);
+    const auto number = [&](std::size_t k) {
+      double value = 0.0;
+      const char* end = words[k].data() + words[k].size();
+      const auto parsed = std::from_chars(words[k].data(), end, value);
+      require(parsed.ec == std::errc{} && parsed.ptr == end && std::isfinite(value),
+              words[k] + " is no number. Leave the key out to read the folders");
+      return value;
+    };
+    require(words.size() % 4 == 0,
+            "is no list of folders with three numbers each. Leave the key out to read the "
+            "folders");
+    for (std::size_t k = 0; k < words.size(); k += 4)
+      known[words[k]] = {number(k + 1), number(k + 2), number(k + 3)};
+  } catch (const InputError& e) {
+    file.refuse("Analysis", "critical state values", e.what());
+  }
+  return known;
+}
+
+/// Final states of the other runs: from their folders or, where a run is continued or a
+/// folder is gone, from the case. Sets them in the resolved case.
+void find_critical_states(CaseFile& file, ElementCase& c)
+{
+  const char *const section = "Analysis", *const values = "critical state values";
+  const bool is_asked_anew = file.is_override(section, "critical states");
+  const auto known = known_states(file, c.critical_values.empty() && file.is_continued()
+                                            ? file.earlier_value(section, values)
+                                            : c.critical_values);
+  c.critical_states.clear();
+  c.critical_values.clear();
+  for (const std::filesystem::path& folder : c.critical_folders) {
+    const auto found = known.find(folder.string());
+    std::error_code error; // a folder that cannot be reached counts as gone
+    const bool is_gone = !std::filesystem::exists(folder, error);
+    const bool is_known =
+        found != known.end() && (is_gone || (file.is_continued() && !is_asked_anew));
+    const dem::CriticalState s = is_known ? found->second : last_state(file, folder);
+    c.critical_states.push_back(s);
+    c.critical_values += (c.critical_values.empty() ? "" : " ") + as_word(folder.string());
+    for (const double value : {s.p, s.q, s.e})
+      c.critical_values += ' ' + dem::shortest(value);
+  }
+  file.resolve(section, values, c.critical_values);
 }
 
 } // namespace
@@ -185,9 +246,7 @@ void complete(CaseFile& file, ElementCase& c)
     complete_granular(file, c);
   else
     file.derive("Loading", "reference pressure", tensile_strength(c.bond.chosen()) / 40.0);
-  std::istringstream folders(c.critical_text);
-  for (std::string folder; folders >> folder;)
-    c.critical_states.push_back(last_state(file, folder));
+  find_critical_states(file, c);
 }
 
 dem::PeriodicSpecimen obtain_specimen(const CaseFile& file, const ElementCase& c)

@@ -11,6 +11,10 @@
 #include "dem/element/element_test.h"
 #include "dem/laws/size_effect.h"
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 namespace mergel::apps {
 
 /// Section `Size effect`.
@@ -34,8 +38,9 @@ struct ElementCase : dem::ElementControl {
 
   // Analysis
   AnalysisKeys analysis;
-  std::string critical_text;
-  std::vector<dem::CriticalState> critical_states; ///< final states of other runs
+  std::vector<std::filesystem::path> critical_folders;
+  std::string critical_values; ///< the states below by their folders, for the resolved case
+  std::vector<dem::CriticalState> critical_states; ///< final states of the runs in them
 
   // Output
   enum class Pictures { none, stages, strain };

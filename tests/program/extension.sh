@@ -100,6 +100,21 @@ element --restart two --set "Analysis/yield offset=1e-4" >log || fail "another a
 awk -F': ' '/"yield offset/ { x = $2 + 0 } END { exit x != 1e-4 }' two/summary.json || fail "the analysis was not repeated: $(cat two/summary.json)"
 [ "$(lines two)" -lt "$(lines all)" ] && finished two || fail "another analysis loaded the specimen: $(cat info)"
 
+# The states of other runs, from folders with and without a blank in the name: the run knows them from then on.
+mkdir "state A" state_B elsewhere
+head -n -3 all/history.csv >"state A/history.csv"
+head -n -6 all/history.csv >state_B/history.csv
+element "$case_file" "${tiny[@]}" "${none[@]}" --set 'Analysis/critical states="state A" state_B' --output fitted >log || fail "critical states: $(tail -3 log)"
+grep -Eq '"critical states fitted \[-\]": 3(,|$)' fitted/summary.json || fail "critical states: $(cat fitted/summary.json)"
+grep -qF "set critical states = \"$(pwd -P)/state A\" $(pwd -P)/state_B" fitted/resolved.prm || fail "critical states: $(grep critical fitted/resolved.prm)"
+fitted() { grep '"critical state line' fitted/summary.json; }
+fitted >line
+rm -r "state A" state_B
+(cd elsewhere && element --restart ../fitted --set "Analysis/yield offset=1e-4") >log || fail "critical states from elsewhere: $(tail -3 log)"
+cmp line <(fitted) || fail "critical states from elsewhere: $(cat fitted/summary.json)"
+[ "$(code_of element --restart fitted --set 'Analysis/critical states="state C"')" -eq 1 ] &&
+  grep -q 'critical states = "state C": .*/state C holds no results of an element test: ' log || fail "no such state: $(cat log)"
+
 # A test that ended at its strain limit.
 element "$case_file" "${tiny[@]}" "${more[@]}" --set "Loading/strain limit=0.002" --output limited >log || fail "a strain limit: $(tail -3 log)"
 grep -q 'the strain limit was reached' limited/summary.json || fail "the strain limit: $(cat limited/summary.json)"

@@ -278,4 +278,40 @@ TEST_CASE(
   CHECK(c.sample == fs::current_path() / "b.h5");
   file.read("cases/pile.prm", {"Specimen/file="});
   CHECK(c.sample.empty());
+  file.read("cases/pile.prm", {"Specimen/file=\"my rock/b.h5\""});
+  CHECK(c.sample == fs::current_path() / "my rock/b.h5");
+}
+
+TEST_CASE("A list of paths is resolved to absolute ones, which are read back from anywhere",
+          "[unit][apps]")
+{
+  const WorkingFolder folder;
+  const fs::path here = fs::current_path();
+  fs::create_directory("cases");
+  write("cases/c.prm", "subsection Analysis\n set runs = ../a \"state B\" /c\nend\n");
+  std::vector<fs::path> runs;
+  CaseFile file;
+  {
+    const auto section = file.section("Analysis");
+    file.paths("runs", runs, "Folders.");
+  }
+  file.read("cases/c.prm");
+  const std::vector<fs::path> expected{here / "a", here / "cases/state B", "/c"};
+  CHECK(runs == expected);
+  write("resolved.prm", file.resolved_text());
+  fs::current_path("cases");
+  runs.clear();
+  file.read("../resolved.prm");
+  CHECK(runs == expected);
+  file.read_text(file.resolved_text(), "its case", {"Analysis/runs=\"d e\""});
+  CHECK(runs == std::vector<fs::path>{here / "cases/d e"});
+  file.read("../resolved.prm", {"Analysis/runs="});
+  CHECK(runs.empty());
+  CHECK_THROWS_WITH(file.read("../resolved.prm", {"Analysis/runs=\"d e"}),
+                    Catch::Matchers::StartsWith(
+                        "--set Analysis/runs = \"d e: has a quotation mark that is "
+                        "never closed"));
+  CHECK_THROWS_WITH(file.read("../resolved.prm", {"Analysis/runs=a \"\""}),
+                    Contains("has a name without a letter"));
+  fs::current_path(here);
 }
