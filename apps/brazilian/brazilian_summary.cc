@@ -78,7 +78,7 @@ std::string breaks_text(const std::vector<DiscBreak>& breaks,
   for (std::size_t k = 0; k < n; ++k) {
     const DiscBreak& b = breaks[k];
     const auto number = [&](const char* name, double value) {
-      out << '"' << name << "\": " << dem::shortest(value) << ", ";
+      out << '"' << name << "\": " << number_in_json(value) << ", ";
     };
     out << (k > 0 ? ",\n    {" : "\n    {");
     number("x [m]", b.x.x());

@@ -279,7 +279,7 @@ std::string json_of(const std::vector<StageResult>& stages)
       text += ",\n      \"bonds broken in the approach [-]\": " +
               std::to_string(*stage.broken_in_approach);
     for (const Finding& f : stage.findings)
-      text += ",\n      \"" + f.name + " [" + f.unit + "]\": " + dem::shortest(f.value);
+      text += ",\n      \"" + f.name + " [" + f.unit + "]\": " + number_in_json(f.value);
     text += "\n    }";
     comma = ",\n";
   }

@@ -3,11 +3,18 @@
 #include "apps/case/words.h"
 #include "dem/text.h"
 
+#include <cmath>
+
 namespace mergel::apps {
+
+std::string number_in_json(double value)
+{
+  return std::isfinite(value) ? dem::shortest(value) : "null";
+}
 
 void Summary::number(const std::string& name, double value)
 {
-  json(name, dem::shortest(value));
+  json(name, number_in_json(value));
 }
 
 void Summary::text(const std::string& name, const std::string& value)

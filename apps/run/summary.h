@@ -8,6 +8,10 @@
 
 namespace mergel::apps {
 
+/// The shortest text that reads back to the same bits; null, the absence of a value, where there
+/// is no number: JSON has neither nan nor inf.
+std::string number_in_json(double value);
+
 class Summary {
 public:
   /// A member of the JSON object, in the order of the calls. @param name with its unit

@@ -29,6 +29,10 @@ dem::Sample read_or_make(const CaseFile& file, const SpecimenKeys& k)
             "Specimen", "file",
             differs + "; make a new sample, or clear the key to make the specimen in this "
                       "run");
+      if (sample.packing.particles.size() < dem::fewest_particles)
+        file.refuse("Specimen", "file",
+                    "holds " + std::to_string(sample.packing.particles.size()) +
+                        " particles, and a specimen needs two at least: make a new sample");
     });
     require_same_bytes(sample.sum, "Specimen/file = " + k.sample.string());
     return sample;

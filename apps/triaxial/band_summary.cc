@@ -48,7 +48,7 @@ std::string json_of(const At& at)
   std::string text;
   const auto add = [&](const char* name, double value) {
     text += std::string(",\n      \"") + name + " " + at.when +
-            " [degree]\": " + dem::shortest(value / degree);
+            " [degree]\": " + number_in_json(value / degree);
   };
   add("friction angle", at.angles->phi);
   add("dilation angle", at.angles->psi);
@@ -66,7 +66,7 @@ std::string json_of(const coupling::BandRecord& r, double d_50)
     const char* comma = "";
     for (const BandColumn& c : band_columns(found, d_50)) {
       text += std::string(comma) + "\n        \"" + c.name + " [" + c.unit +
-              "]\": " + dem::shortest(c.value);
+              "]\": " + number_in_json(c.value);
       comma = ",";
     }
     text += "\n      }";
@@ -152,8 +152,8 @@ void summarise_bands(Summary& summary, const std::vector<coupling::BandRecord>& 
     const std::string number = labels[r.stage].name();
     text +=
         std::string(comma) + "    {\n      \"number\": \"" + number +
-        "\",\n      \"axial strain [-]\": " + dem::shortest(r.axial_strain) +
-        ",\n      \"increment of the axial strain [-]\": " + dem::shortest(r.increment) +
+        "\",\n      \"axial strain [-]\": " + number_in_json(r.axial_strain) +
+        ",\n      \"increment of the axial strain [-]\": " + number_in_json(r.increment) +
         json_of(at_peak) + json_of(at_end) + json_of(r, d_50) + "\n    }";
     comma = ",\n";
     out << "stage " << number << ", shear strain: ";

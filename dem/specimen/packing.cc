@@ -45,6 +45,16 @@ double porosity_at(const SpecimenSpec& s, double fraction)
   return 1.0 - (1.0 - s.porosity) * fraction / effective_solid_fraction(s); // > 0
 }
 
+/// @param n number of particles, or its expected value
+void require_several(double n)
+{
+  const double whole = std::round(n);
+  if (whole < static_cast<double>(fewest_particles))
+    throw InputError("leaves room for " + std::to_string(static_cast<int>(whole)) +
+                     " particles, and a specimen needs two at least: lower the porosity "
+                     "or the upscaling ratio, or enlarge the region");
+}
+
 } // namespace
 
 double GradedScale::at(double r) const
@@ -88,6 +98,7 @@ void SpecimenSpec::check() const
   }
   require(smallest_width(region) > width_needed(*this),
           "the largest particle does not fit the region");
+  require_several(max_particles(*this));
 }
 
 double width_needed(const SpecimenSpec& s)
@@ -221,6 +232,7 @@ Packing pack(const SpecimenSpec& s, const std::function<void(double)>& progress,
   const auto settling = [&](double part) { progress(0.2 + 0.8 * part); };
   for (int draw = 0; draw < max_draws; ++draw) {
     packing.particles = draw_particles(s, solid * volume(s.region));
+    require_several(static_cast<double>(packing.particles.size()));
     const auto report = [&](double part) { progress((draw + part) / max_draws); };
     packing.overlap = grow_packing(
         s, packing.particles, {0.6, tolerance_overlap, sweeps_to_judge}, ranks, report);
@@ -252,33 +264,42 @@ Packing pack(const SpecimenSpec& s, const std::function<void(double)>& progress,
 SizeReport describe_sizes(const Grading& wanted, const Particles& p)
 {
   std::vector<double> d; // at S = 1; their mass is proportional to d^3
-  double mass = 0.0;
-  for (const ParticleState& b : p.state) {
-    d.push_back(2.0 * b.R / b.S);
-    mass += d.back() * d.back() * d.back();
-  }
+  for (const ParticleState& b : p.state) d.push_back(2.0 * b.R / b.S);
   std::sort(d.begin(), d.end());
+  const auto n = static_cast<double>(d.size());
+  double mass = 0.0;
+  for (const double x : d) mass += x * x * x;
   SizeReport r;
-  double below = 0.0;
-  for (std::size_t k = 0; k < d.size(); ++k) {
-    const double n = static_cast<double>(d.size());
-    const double after = below + d[k] * d[k] * d[k] / mass;
-    // The made curve is a step function: both ends of a step are compared.
-    const auto gap = [](double wanted_share, double low, double high) {
-      return std::max(std::abs(wanted_share - low), std::abs(wanted_share - high));
+  double sum = 0.0, number_below = 0.0, below = 0.0; // in the order of `mass`: ends at 1
+  for (std::size_t k = 0; k < d.size();) {
+    // The made curve is a step function, and the wanted one too where all sizes are equal:
+    // they are compared just before and just behind a step. Equal diameters differ by round-off.
+    constexpr double round_off = 1e-9;
+    const double first = d[k];
+    std::size_t end = k;
+    for (; end < d.size() && d[end] <= first * (1.0 + round_off); ++end)
+      sum += d[end] * d[end] * d[end];
+    const double before = first * (1.0 - round_off),
+                 behind = d[end - 1] * (1.0 + round_off);
+    const double number = static_cast<double>(end) / n, share = sum / mass;
+    const auto distance = [](double wanted_share, double made) {
+      return std::abs(wanted_share - made);
     };
-    r.distance_by_number = std::max(
-        r.distance_by_number, gap(wanted.number_below(d[k]), static_cast<double>(k) / n,
-                                  static_cast<double>(k + 1) / n));
+    r.distance_by_number =
+        std::max({r.distance_by_number, distance(wanted.number_below(before), number_below),
+                  distance(wanted.number_below(behind), number)});
     r.distance_by_mass =
-        std::max(r.distance_by_mass, gap(wanted.passing(d[k]), below, after));
-    const auto reach = [&](double share, double& target) {
-      if (below < share && after >= share) target = d[k];
+        std::max({r.distance_by_mass, distance(wanted.passing(before), below),
+                  distance(wanted.passing(behind), share)});
+    const auto reach = [&](double of_mass, double& target) {
+      if (below < of_mass && share >= of_mass) target = first;
     };
     reach(0.1, r.d_10);
     reach(0.5, r.d_50);
     reach(0.9, r.d_90);
-    below = after;
+    number_below = number;
+    below = share;
+    k = end;
   }
   return r;
 }

@@ -56,6 +56,9 @@ double max_particles(const SpecimenSpec& spec);
 /// Limit of max_particles(): an index has 32 bits, and such a run fills a large machine.
 inline constexpr double particles_limit = 2e7;
 
+/// A specimen of fewer has no contact and no size curve.
+inline constexpr std::size_t fewest_particles = 2;
+
 /// Smallest width of the region [m]: twice the diameter of the largest particle. A periodic
 /// box must also be wide enough for the search range, so that no particle is paired with
 /// its own image.
@@ -91,7 +94,8 @@ void measure_porosity(const SpecimenSpec& spec, Packing& packing);
 /// @param progress gets a fraction of the work
 /// @param comm ranks that share growth and settling; MPI_COMM_NULL for one rank without MPI
 /// @throws InputError when the core cannot reach its porosity: unjammed, when overlaps
-///   above 1e-3 of the distance remain; confined, when not together with the pressure
+///   above 1e-3 of the distance remain; confined, when not together with the pressure; any,
+///   when fewer than two particles are drawn
 Packing pack(const SpecimenSpec& spec, const std::function<void(double)>& progress,
              MPI_Comm comm = MPI_COMM_NULL);
 

@@ -76,6 +76,47 @@ TEST_CASE("A packing has its porosity, its ids in order and no overlap", "[unit]
   CHECK(packing.overlap < 2e-3);
 }
 
+TEST_CASE("Equal particles have the size curve that was wanted", "[unit][dem]")
+{
+  Particles p;
+  for (const double S : {1.0, 1.7, 2.3, 3.1}) { // R/S is d00/2 up to round-off
+    ParticleState b;
+    b.S = S;
+    b.R = 0.5 * S * d00;
+    p.add(b);
+  }
+  const SizeReport r = describe_sizes(Grading(UniformSizes{d00, d00}), p);
+  CHECK(r.distance_by_mass == 0.0);
+  CHECK(r.distance_by_number == 0.0);
+  CHECK(r.d_50 == Approx(d00));
+  // Of another size they are as far off as can be.
+  CHECK(describe_sizes(Grading(UniformSizes{2 * d00, 2 * d00}), p).distance_by_mass == 1.0);
+}
+
+TEST_CASE("The distance of the size curves is that of the step of the made one",
+          "[unit][dem]")
+{
+  // One particle in the middle of a uniform grading: 0.5 on both sides of the step.
+  Particles p;
+  ParticleState b;
+  b.S = 1.0;
+  b.R = 0.75 * d00;
+  p.add(b);
+  const SizeReport r = describe_sizes(Grading(UniformSizes{d00, 2.0 * d00}), p);
+  // Compared at 1e-9 of the diameter beside it, where the slope is 1/d00.
+  CHECK(r.distance_by_number == Approx(0.5).margin(1e-8));
+}
+
+TEST_CASE("A porosity that leaves room for fewer than two particles is refused",
+          "[unit][dem]")
+{
+  SpecimenSpec s = small_specimen();
+  for (const double porosity : {0.99999, 0.9999999}) {
+    s.porosity = porosity; // of 8 mm3: 1e-4 or 1e-6 mm3, a particle has 5e-4 at least
+    CHECK_THROWS_WITH(pack(s, [](double) {}), Contains("a specimen needs two at least"));
+  }
+}
+
 TEST_CASE("The number of particles per volume falls with the cube of S", "[unit][dem]")
 {
   const SpecimenSpec s = small_specimen();
