@@ -63,6 +63,10 @@ void Partition::assign(Particles& p, const std::vector<double>& weight,
                        const Communicator& comm)
 {
   if (comm.is_alone()) return;
+  if (p.size() < bisected_from * static_cast<std::size_t>(comm.n_ranks())) {
+    assign_by_index(p, comm);
+    return;
+  }
   ZoltanObjects mine;
   p.for_owned([&](Index i) {
     mine.particle.push_back(i);

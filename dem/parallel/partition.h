@@ -17,7 +17,8 @@ namespace mergel::dem {
 class Partition {
 public:
   /// Distribute the particles by recursive coordinate bisection (Berger and Bokhari 1987)
-  /// of their positions, by Zoltan. Sets the ownership of `p`, without ghosts; collective.
+  /// of their positions, by Zoltan; fewer than `bisected_from` a rank as assign_by_index() does.
+  /// Sets the ownership of `p`, without ghosts; collective.
   /// @param weight load of each owned particle, in the order of for_owned(); empty for 1
   ///   each
   /// @pre x is up to date for owned particles
@@ -35,6 +36,10 @@ public:
   const std::vector<Index>& owned_by(std::size_t rank) const { return owned_by_[rank]; }
   /// The rank that owns each particle. @pre assign() was called
   std::vector<int> owners() const;
+
+  /// Particles a rank from which bisection serves [-]. Zoltan fails with fewer particles than
+  /// ranks, and with a few a rank there is nothing to balance.
+  static constexpr std::size_t bisected_from = 8;
 
 private:
   void list_owners(const Particles& p, const Communicator& comm);
