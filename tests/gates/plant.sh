@@ -124,7 +124,7 @@ fault "unused private field, which GCC lets through" 'dem/planted\.cc:2:.*Wunuse
 gate sanitize tests/gates/sanitize.sh dem_unit
 planted_test()
 {
-  printf '#include <catch2/catch.hpp>\n#include <limits>\n#include <vector>\n' >"$1"
+  printf '#include "tests/support/catch.h"\n#include <limits>\n#include <vector>\n' >"$1"
   printf 'TEST_CASE("planted", "[unit][dem]")\n{\n%s\n}\n' "$2" >>"$1"
 }
 planted_test tests/unit/dem/planted.cc '

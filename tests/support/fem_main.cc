@@ -1,6 +1,6 @@
 // Main of the test programs that link fem/: PETSc and deal.II must be initialised once.
 #define CATCH_CONFIG_RUNNER
-#include <catch2/catch.hpp>
+#include "tests/support/catch.h"
 
 #include "fem/runtime.h"
 

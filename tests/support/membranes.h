@@ -1,9 +1,10 @@
 /// Membranes of simple shapes, and their equilibrium, for the tests of fem/membrane.
 #pragma once
 
+#include "tests/support/catch.h"
+
 #include "fem/membrane/membrane.h"
 
-#include <catch2/catch.hpp>
 #include <deal.II/grid/grid_generator.h>
 
 #include <random>

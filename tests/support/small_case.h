@@ -3,9 +3,8 @@
 
 #include "apps/case/case_file.h"
 #include "dem/error.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,9 +1,9 @@
 // coupling/README.md, Brazilian test: an elastic disc of bonded particles against the closed forms
 // of Hertz and Hondros, and the rules by which the test ends and says where failure began.
+#include "tests/support/catch.h"
+
 #include "coupling/brazilian/brazilian_test.h"
 #include "dem/assembly/averages.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel;
 using namespace mergel::coupling;

@@ -1,6 +1,6 @@
-#include "coupling/driven_pile.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "coupling/driven_pile.h"
 
 #include <cmath>
 

@@ -3,9 +3,8 @@
 #include "coupling/equilibrium.h"
 #include "coupling/far_field_structure.h"
 #include "dem/specimen/region.h"
+#include "tests/support/catch.h"
 #include "tests/support/cubic_crystal.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel;
 using namespace mergel::coupling;

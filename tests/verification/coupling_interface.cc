@@ -4,9 +4,8 @@
 #include "dem/assembly/energy_balance.h"
 #include "dem/assembly/step.h"
 #include "dem/math/random.h"
+#include "tests/support/catch.h"
 #include "tests/support/small_chamber.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel;
 using dem::Vec3;

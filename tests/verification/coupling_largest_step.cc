@@ -4,9 +4,8 @@
 #include "coupling/structure_system.h"
 #include "dem/assembly/step.h"
 #include "dem/assembly/timestep.h"
+#include "tests/support/catch.h"
 #include "tests/support/small_chamber.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel;
 using namespace mergel::coupling;

@@ -1,8 +1,8 @@
 // coupling/README.md, Rigid platen: motion, load and energy of a platen on bonded particles.
+#include "tests/support/catch.h"
+
 #include "coupling/equilibrium.h"
 #include "coupling/rigid_platen.h"
-
-#include <catch2/catch.hpp>
 
 #include <limits>
 

@@ -1,11 +1,10 @@
 // coupling/README.md, Far field: a plane pulse of the particles meets the elements.
+#include "tests/support/catch.h"
 #include "tests/support/cubic_crystal.h"
 #include "tests/support/solid_structure.h"
 #include "tests/verification/fem_solids.h"
 
 #include <deal.II/grid/grid_tools.h>
-
-#include <catch2/catch.hpp>
 
 using namespace mergel;
 using namespace mergel::coupling;

@@ -2,9 +2,8 @@
 #include "coupling/equilibrium.h"
 #include "coupling/far_field_structure.h"
 #include "dem/specimen/surface_load.h"
+#include "tests/support/catch.h"
 #include "tests/support/cubic_crystal.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel;
 using namespace mergel::coupling;

@@ -1,10 +1,10 @@
 // coupling/README.md, Membrane and Triaxial test: a bonded specimen between platens in a membrane
 // under a cell pressure.
+#include "tests/support/catch.h"
+
 #include "coupling/triaxial/triaxial_test.h"
 #include "dem/assembly/averages.h"
 #include "dem/specimen/bonding.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel;
 using namespace mergel::coupling;

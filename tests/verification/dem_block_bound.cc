@@ -1,8 +1,7 @@
 // dem/README.md, Time step: largest frequency and block bound of 1,000 small random
 // assemblies against a dense eigenvalue solver.
+#include "tests/support/catch.h"
 #include "tests/support/strain_controlled_assembly.h"
-
-#include <catch2/catch.hpp>
 
 #include <Eigen/Eigenvalues>
 

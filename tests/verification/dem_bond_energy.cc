@@ -1,7 +1,6 @@
 /// Energy of one bond in the force kernel: the work of its ends is stored or lost.
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

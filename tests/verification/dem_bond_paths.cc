@@ -1,7 +1,7 @@
 /// Combined loading of one bond against the rate form of Eqs. 2-7 of the paper.
-#include "tests/verification/bond_rate_form.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "tests/verification/bond_rate_form.h"
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

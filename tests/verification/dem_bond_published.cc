@@ -2,9 +2,9 @@
 /// and 7. Misprints are corrected (Eq. 3 accumulates; rows 2 and 3 of Eq. 11 use their own
 /// displacement). Eq. 10 is tested as printed and corrected, and Appendix 2 in both of its
 /// readings.
-#include "tests/verification/bond_rate_form.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "tests/verification/bond_rate_form.h"
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

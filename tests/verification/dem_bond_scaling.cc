@@ -1,9 +1,8 @@
 /// Eq. 8 of the paper: moduli, strengths and theta_c stay, u_c and g_a grow with S. Then
 /// lengths S times as large under the same strains carry forces S^2 and moments S^3 times
 /// as large, at the same damage.
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

@@ -1,8 +1,7 @@
 /// Symmetries of one bond that yields, is damaged and has a sliding contact beside it: ends
 /// swapped, mirrored, rotated, shifted, and in any lane of the kernel.
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

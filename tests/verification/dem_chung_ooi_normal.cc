@@ -1,7 +1,7 @@
 // Tests 1 to 3 of Chung & Ooi (2011), normal impacts: see chung_ooi.h.
-#include "tests/verification/chung_ooi.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "tests/verification/chung_ooi.h"
 
 #include <array>
 

@@ -9,9 +9,9 @@
 //   7 - kappa < psi          slides throughout
 //
 // by comparing the rates k_s |slip| and mu f_n' with slip = slip_0 - 7/2 mu v_n (1 - cos).
-#include "tests/verification/chung_ooi.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "tests/verification/chung_ooi.h"
 
 #include <array>
 #include <utility>

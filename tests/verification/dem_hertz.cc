@@ -6,9 +6,9 @@
 //
 // Oblique impact, with the velocity along n as the variable, z = v_n/v_n0 from 1 to -1:
 // the overlap follows from (d/d_max)^(5/2) = 1 - z^2 whatever the shear does.
-#include "tests/verification/chung_ooi.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "tests/verification/chung_ooi.h"
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

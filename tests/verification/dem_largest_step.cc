@@ -1,9 +1,8 @@
 // dem/README.md, Time step: the largest stable step of one and two particles against closed
 // forms, and against runs.
 #include "dem/assembly/step.h"
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

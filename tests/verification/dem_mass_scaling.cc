@@ -3,9 +3,8 @@
 #include "dem/assembly/mass_scaling.h"
 #include "dem/assembly/timestep.h"
 #include "dem/io/state/assembly_state.h"
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;
@@ -195,7 +194,7 @@ TEST_CASE(
 TEST_CASE("Mass scaling above the limit of a zone is refused with zone, share and remedy",
           "[verification][dem]")
 {
-  using Catch::Contains;
+  using mergel::match::Contains;
   Assembly a = hanging_column();
   const std::string uniform = refusal(a, {1.26, 0.01});
   CHECK_THAT(uniform, Contains("Motion/mass scaling = 1.26") && Contains("1.8 %") &&

@@ -1,8 +1,7 @@
 /// One bond under imposed motion against its closed forms, Eqs. 2, 3, 6 of the paper, with
 /// the left column of its Table 1 and R = 30 mm.
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

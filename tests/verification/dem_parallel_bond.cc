@@ -1,8 +1,7 @@
 /// The elastic-brittle parallel bond against its closed forms: Potyondy and Cundall (2004),
 /// A bonded-particle model for rock, Int. J. Rock Mech. Min. Sci. 41, 1329, Eqs. 12-16.
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

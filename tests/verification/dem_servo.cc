@@ -1,8 +1,7 @@
+#include "tests/support/catch.h"
 #include "tests/support/strain_controlled_assembly.h"
 
 #include "dem/element/servo.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

@@ -1,8 +1,7 @@
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
 
 #include "dem/walls/rigid_wall.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

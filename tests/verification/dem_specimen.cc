@@ -1,17 +1,17 @@
 // Specimens have the properties that a case asks for.
+#include "tests/support/catch.h"
+
 #include "dem/assembly/step.h"
 #include "dem/assembly/timestep.h"
 #include "dem/pairs/neighbours.h"
 #include "dem/specimen/bonding.h"
 #include "dem/specimen/compaction.h"
 
-#include <catch2/catch.hpp>
-
 #include <array>
 #include <cmath>
 
 using namespace mergel::dem;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 

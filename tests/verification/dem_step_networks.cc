@@ -1,9 +1,8 @@
 // dem/README.md, Time step: the stable step of networks of particles against closed forms
 // and against runs.
 #include "dem/assembly/step.h"
+#include "tests/support/catch.h"
 #include "tests/support/strain_controlled_assembly.h"
-
-#include <catch2/catch.hpp>
 
 #include <Eigen/Eigenvalues>
 

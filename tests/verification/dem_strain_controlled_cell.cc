@@ -1,7 +1,6 @@
 #include "dem/continuum/particle_stress.h"
+#include "tests/support/catch.h"
 #include "tests/support/strain_controlled_assembly.h"
-
-#include <catch2/catch.hpp>
 
 #include <numeric>
 

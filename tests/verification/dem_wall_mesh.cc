@@ -1,8 +1,7 @@
 // What a particle feels of the triangles of a wall: nothing on a plane, no jump in a valley, and
 // on a cylinder less the finer they are (dem/README.md, Walls).
+#include "tests/support/catch.h"
 #include "tests/support/wall_patches.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

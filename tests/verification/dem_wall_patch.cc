@@ -1,8 +1,7 @@
 // The contact of a particle with a smooth patch of triangles has one energy, whose gradient is the
 // force on particle and nodes (dem/README.md, Walls).
+#include "tests/support/catch.h"
 #include "tests/support/wall_patches.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

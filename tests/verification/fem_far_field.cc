@@ -5,11 +5,10 @@
 #include "fem/far_field/far_field_mesh.h"
 #include "fem/solid/elastic_solid.h"
 #include "fem/solver/linear_solver.h"
+#include "tests/support/catch.h"
 #include "tests/support/small_chamber.h"
 
 #include <Eigen/Geometry>
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // The static equations of fem/ against closed forms: fem/README.md, 1. Equations,
 // 3. Boundary conditions, 8. Static solution.
+#include "tests/support/catch.h"
+
 #include "tests/verification/fem_solids.h"
 
 #include "fem/solver/linear_solver.h"
 
 #include <deal.II/grid/grid_tools.h>
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <numbers>

@@ -7,7 +7,7 @@
 using namespace mergel;
 using namespace mergel::apps;
 using namespace mergel::apps::test;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE("A wrong declaration is reported as an error of the program", "[unit][apps]")

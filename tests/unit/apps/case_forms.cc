@@ -10,7 +10,7 @@
 using namespace mergel;
 using namespace mergel::apps;
 using namespace mergel::apps::test;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 

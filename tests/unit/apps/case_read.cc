@@ -6,7 +6,7 @@
 using namespace mergel;
 using namespace mergel::apps;
 using namespace mergel::apps::test;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE("A case sets the variables that its keys are bound to", "[unit][apps]")
@@ -307,10 +307,10 @@ TEST_CASE("A list of paths is resolved to absolute ones, which are read back fro
   CHECK(runs == std::vector<fs::path>{here / "cases/d e"});
   file.read("../resolved.prm", {"Analysis/runs="});
   CHECK(runs.empty());
-  CHECK_THROWS_WITH(file.read("../resolved.prm", {"Analysis/runs=\"d e"}),
-                    Catch::Matchers::StartsWith(
-                        "--set Analysis/runs = \"d e: has a quotation mark that is "
-                        "never closed"));
+  CHECK_THROWS_WITH(
+      file.read("../resolved.prm", {"Analysis/runs=\"d e"}),
+      mergel::match::StartsWith("--set Analysis/runs = \"d e: has a quotation mark that is "
+                                "never closed"));
   CHECK_THROWS_WITH(file.read("../resolved.prm", {"Analysis/runs=a \"\""}),
                     Contains("has a name without a letter"));
   fs::current_path(here);

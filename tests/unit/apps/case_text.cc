@@ -6,7 +6,7 @@
 using namespace mergel;
 using namespace mergel::apps;
 using namespace mergel::apps::test;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE("The resolved case sets every variable to the same bits", "[unit][apps]")

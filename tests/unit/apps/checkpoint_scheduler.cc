@@ -5,9 +5,8 @@
 #include "dem/error.h"
 #include "dem/io/history.h"
 #include "dem/timer.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <csignal>
@@ -22,8 +21,8 @@
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
+using mergel::match::Contains;
+using mergel::match::StartsWith;
 namespace fs = std::filesystem;
 
 namespace {
@@ -299,7 +298,7 @@ TEST_CASE("A history continues at its mark and nowhere else", "[unit][apps]")
     later = history.mark();
     begins_there = content(file);
     CHECK_THAT(begins_there, StartsWith("# begins behind 16 bytes of checksum ") &&
-                                 Catch::EndsWith("missing\na [m],b [s]\n3,4\n"));
+                                 mergel::match::EndsWith("missing\na [m],b [s]\n3,4\n"));
     CHECK(later.bytes == begins_there.size());
     history.add({5.0, 6.0});
     CHECK(dem::check_history(file, mark));

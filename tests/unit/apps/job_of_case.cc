@@ -1,8 +1,7 @@
 #include "apps/sample/job_of_case.h"
 
+#include "tests/support/catch.h"
 #include "tests/support/repository.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel;
 using namespace mergel::apps;

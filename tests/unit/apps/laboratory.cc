@@ -2,9 +2,8 @@
 /// line.
 #include "apps/compare/tests_table.h"
 #include "apps/laboratory/test_series.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <boost/property_tree/json_parser.hpp>
 
@@ -14,7 +13,7 @@
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 
@@ -297,7 +296,7 @@ TEST_CASE("tests.csv has a cell for each heading, tests.json is JSON, both with 
     last = line;
   }
   CHECK(n == 5); // three tests, a mean and its standard error
-  CHECK_THAT(last, Catch::Matchers::StartsWith("standard error,triaxial,1,2,"));
+  CHECK_THAT(last, mergel::match::StartsWith("standard error,triaxial,1,2,"));
 
   std::istringstream json(json_of(s));
   boost::property_tree::ptree tree;

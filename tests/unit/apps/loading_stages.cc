@@ -1,15 +1,15 @@
+#include "tests/support/catch.h"
+
 #include "apps/element/loading_stages.h"
 
 #include "apps/case/cycles.h"
 #include "dem/error.h"
 
-#include <catch2/catch.hpp>
-
 #include <cmath>
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 TEST_CASE("A loading stage is read as it is written", "[unit][apps]")
 {

@@ -1,11 +1,11 @@
+#include "tests/support/catch.h"
+
 #include "apps/case/material_keys.h"
 #include "dem/error.h"
 
-#include <catch2/catch.hpp>
-
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 

@@ -4,9 +4,8 @@
 #include "apps/run/restart.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <unistd.h>
 
@@ -19,7 +18,7 @@
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 

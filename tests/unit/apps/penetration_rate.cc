@@ -1,6 +1,6 @@
-#include "apps/pile/penetration_rate.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "apps/pile/penetration_rate.h"
 
 using namespace mergel::apps;
 

@@ -1,10 +1,9 @@
 #include "apps/pile/pile_case.h"
 #include "apps/coupled/system_of_case.h"
+#include "tests/support/catch.h"
 #include "tests/support/repository.h"
 #include "tests/support/shipped_case.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <fstream>
 #include <iterator>
@@ -206,7 +205,7 @@ TEST_CASE("the far field takes E and nu from the results of an element test, unl
     }
     return "accepted";
   };
-  using Catch::Contains;
+  using mergel::match::Contains;
   CHECK_THAT(refused(""), Contains("Far field/Young's modulus: must be given, or "
                                    "`elasticity from` names the results folder"));
   std::filesystem::remove(test / "summary.json");
@@ -228,7 +227,7 @@ TEST_CASE(
   CHECK(c.assembly.far_field.side_pressure == Approx(1e5));
   CHECK(read_case("pile_small.prm").assembly.far_field.surcharge == 0.0);
 
-  using Catch::Contains;
+  using mergel::match::Contains;
   CHECK_THAT(refusal({"Far field/outer boundary=pressure"}),
              Contains("Far field/side pressure: must be given"));
   CHECK_THAT(refusal({"Far field/side pressure=1 MPa"}),

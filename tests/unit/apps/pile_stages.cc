@@ -1,13 +1,12 @@
 #include "apps/pile/pile_case.h"
 #include "dem/error.h"
+#include "tests/support/catch.h"
 #include "tests/support/repository.h"
 #include "tests/support/shipped_case.h"
 
-#include <catch2/catch.hpp>
-
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 using Kind = PileStage::Kind;
 
 TEST_CASE("A loading stage of a pile is read as it is written", "[unit][apps]")

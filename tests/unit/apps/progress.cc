@@ -1,6 +1,6 @@
-#include "apps/run/progress.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "apps/run/progress.h"
 
 #include <algorithm>
 #include <iostream>
@@ -12,8 +12,8 @@
 #include <unistd.h>
 
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
-using Catch::Matchers::EndsWith;
+using mergel::match::Contains;
+using mergel::match::EndsWith;
 
 namespace {
 

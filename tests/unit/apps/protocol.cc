@@ -2,19 +2,18 @@
 #include "apps/run/protocol.h"
 #include "dem/error.h"
 #include "dem/io/history.h"
+#include "tests/support/catch.h"
 #include "tests/support/small_case.h"
-
-#include <catch2/catch.hpp>
 
 #include <csignal>
 #include <iostream>
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
 using mergel::apps::test::content;
 using mergel::apps::test::WorkingFolder;
+using mergel::match::Contains;
+using mergel::match::StartsWith;
 namespace fs = std::filesystem;
 
 namespace {

@@ -1,9 +1,8 @@
 #include "apps/run/results.h"
 
 #include "dem/error.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <fstream>
 #include <string>
@@ -11,7 +10,7 @@
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 namespace fs = std::filesystem;
 
 namespace {

@@ -1,9 +1,9 @@
+#include "tests/support/catch.h"
+
 #include "apps/run/run_guard.h"
 
 #include "apps/case/words.h"
 #include "dem/error.h"
-
-#include <catch2/catch.hpp>
 
 #include <filesystem>
 #include <iostream>

@@ -1,8 +1,8 @@
+#include "tests/support/catch.h"
+
 #include "apps/case/specimen_keys.h"
 
 #include "dem/error.h"
-
-#include <catch2/catch.hpp>
 
 #include <filesystem>
 #include <fstream>
@@ -11,7 +11,7 @@
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 namespace fs = std::filesystem;
 
 namespace {

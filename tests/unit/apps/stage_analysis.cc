@@ -1,15 +1,15 @@
 /// The results that are read off the curves of loading stages.
+#include "tests/support/catch.h"
+
 #include "apps/element/stage_analysis.h"
 
 #include "apps/element/loading_stages.h"
-
-#include <catch2/catch.hpp>
 
 #include <limits>
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 

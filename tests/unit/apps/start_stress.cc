@@ -1,13 +1,13 @@
 /// The stress of a specimen where its test begins.
+#include "tests/support/catch.h"
+
 #include "apps/specimen/start_stress.h"
 
 #include "dem/error.h"
 
-#include <catch2/catch.hpp>
-
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 TEST_CASE("The stress at the start is said in MPa and summarised in Pa, with p and q",
           "[unit][apps]")

@@ -1,8 +1,9 @@
 /// The figures of summary.json.
+#include "tests/support/catch.h"
+
 #include "apps/run/summary.h"
 
 #include <boost/property_tree/json_parser.hpp>
-#include <catch2/catch.hpp>
 
 #include <limits>
 #include <sstream>

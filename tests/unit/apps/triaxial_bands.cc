@@ -1,7 +1,7 @@
+#include "tests/support/catch.h"
+
 #include "apps/triaxial/band_output.h"
 #include "apps/triaxial/band_summary.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

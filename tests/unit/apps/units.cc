@@ -1,8 +1,8 @@
+#include "tests/support/catch.h"
+
 #include "apps/case/units.h"
 
 #include "dem/error.h"
-
-#include <catch2/catch.hpp>
 
 #include <bit>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 TEST_CASE("A value with a decimal unit is the literal, bit for bit", "[unit][apps]")
 {

@@ -2,10 +2,9 @@
 /// with the choice that makes it void, before anything is written.
 #include "apps/run/jobs.h"
 #include "dem/error.h"
+#include "tests/support/catch.h"
 #include "tests/support/shipped_case.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <fstream>
 #include <string>
@@ -13,8 +12,8 @@
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
+using mergel::match::Contains;
+using mergel::match::StartsWith;
 using mergel::test::without;
 namespace fs = std::filesystem;
 

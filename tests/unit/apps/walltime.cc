@@ -1,8 +1,8 @@
+#include "tests/support/catch.h"
+
 #include "apps/case/walltime.h"
 
 #include "dem/error.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel;
 using namespace mergel::apps;

@@ -1,12 +1,12 @@
+#include "tests/support/catch.h"
+
 #include "apps/case/word_list.h"
 
 #include "dem/error.h"
 
-#include <catch2/catch.hpp>
-
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 TEST_CASE("A list is read at its blanks, but for those in double quotes", "[unit][apps]")
 {

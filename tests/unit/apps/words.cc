@@ -1,7 +1,7 @@
 /// Text for terminals, shells and JSON.
-#include "apps/case/words.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "apps/case/words.h"
 
 using namespace mergel::apps;
 

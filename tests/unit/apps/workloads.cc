@@ -1,16 +1,16 @@
+#include "tests/support/catch.h"
+
 #include "apps/bench/workloads.h"
 
 #include "dem/assembly/energy_balance.h"
 #include "dem/error.h"
 #include "dem/pairs/pair_sums.h"
 
-#include <catch2/catch.hpp>
-
 #include <algorithm>
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 

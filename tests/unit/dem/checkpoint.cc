@@ -5,9 +5,8 @@
 #include "dem/io/seal.h"
 #include "dem/io/state/assembly_state.h"
 #include "tests/support/assembly_with_everything.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <cstring>
 #include <fstream>
@@ -231,7 +230,7 @@ TEST_CASE("arrays that do not fit each other are refused by name", "[unit][dem]"
     }
     return std::string("loaded");
   };
-  using Catch::Matchers::Contains;
+  using mergel::match::Contains;
   CHECK(refusal_with([](State&) {}) == "loaded");
   CHECK_THAT(refusal_with([](State& s) {
                s.add<std::uint32_t>("bond_pairs", {0, 1, 1, 2, 2, 6}, 2);

@@ -1,4 +1,5 @@
-#include <catch2/catch.hpp>
+
+#include "tests/support/catch.h"
 
 #include <cstdint>
 #include <vector>

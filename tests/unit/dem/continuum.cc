@@ -2,9 +2,8 @@
 #include "dem/continuum/section_sums.h"
 #include "dem/continuum/shaft_profile.h"
 #include "dem/walls/wall_readings.h"
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <map>

@@ -1,7 +1,7 @@
+#include "tests/support/catch.h"
+
 #include "dem/element/element_analysis.h"
 #include "dem/notation.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // The alarm of the energy error.
-#include "dem/assembly/energy_balance.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "dem/assembly/energy_balance.h"
 
 using namespace mergel::dem;
 

@@ -1,6 +1,6 @@
-#include "dem/math/lane_sum.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "dem/math/lane_sum.h"
 
 #include <algorithm>
 #include <limits>

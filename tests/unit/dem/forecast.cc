@@ -1,6 +1,6 @@
-#include "dem/specimen/forecast.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "dem/specimen/forecast.h"
 
 using namespace mergel;
 using namespace mergel::dem;

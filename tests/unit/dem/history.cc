@@ -1,9 +1,8 @@
 #include "dem/io/history.h"
 
 #include "dem/error.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <filesystem>
 #include <fstream>
@@ -63,7 +62,7 @@ TEST_CASE("a history that another program touches is noticed at the next line, a
       history.add({1.0});
       for (const Notice& before : notices) before(history); // nothing to notice yet
       touch(file);
-      CHECK_THROWS_WITH(notice(history),
-                        Catch::Contains(file.string()) && Catch::Contains(message));
+      CHECK_THROWS_WITH(notice(history), mergel::match::Contains(file.string()) &&
+                                             mergel::match::Contains(message));
     }
 }

@@ -1,12 +1,11 @@
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 #include <limits>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 TEST_CASE("A particle that moves more than R/20 in a step stops the run", "[unit][dem]")
 {
@@ -113,7 +112,7 @@ TEST_CASE("A particle that turns more than 0.05 rad in a step stops the run and 
   p.state[0].omega = {0.0, 499.0, 0.0};
   CHECK_NOTHROW(drift(p, 1e-4));
   p.state[0].omega = {0.0, 501.0, 0.0};
-  CHECK_THROWS_WITH(drift(p, 1e-4), Catch::Contains("particle 0 turns by 0.0501"));
+  CHECK_THROWS_WITH(drift(p, 1e-4), mergel::match::Contains("particle 0 turns by 0.0501"));
   p.state[0].omega.x() = std::nan("");
   CHECK_THROWS_AS(drift(p, 1e-4), mergel::NumericalError);
 }

@@ -1,8 +1,7 @@
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
 
 #include "dem/particles/kinematics.h"
-
-#include <catch2/catch.hpp>
 
 #include <bit>
 

@@ -1,8 +1,7 @@
 #include "dem/assembly/local_strain.h"
 #include "dem/io/assembly_fields.h"
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "dem/assembly/localisation.h"
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

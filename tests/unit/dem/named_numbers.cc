@@ -1,8 +1,7 @@
 // Numbers and counts of a checkpoint by their names.
 #include "dem/io/state/named_numbers.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel;
 using namespace mergel::dem;

@@ -1,11 +1,11 @@
 // Tables of a checkpoint: columns by their names.
-#include "dem/io/state/named_rows.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "dem/io/state/named_rows.h"
 
 using namespace mergel;
 using namespace mergel::dem;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 

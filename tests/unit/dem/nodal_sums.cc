@@ -1,6 +1,6 @@
-#include "dem/math/nodal_sums.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "dem/math/nodal_sums.h"
 
 #include <limits>
 #include <random>

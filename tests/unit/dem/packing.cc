@@ -1,16 +1,15 @@
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
 
 #include "dem/pairs/neighbours.h"
 #include "dem/specimen/bonding.h"
 #include "dem/specimen/porosity.h"
 
-#include <catch2/catch.hpp>
-
 #include <algorithm>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 

@@ -1,9 +1,8 @@
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
 
 #include "dem/walls/rigid_wall.h"
 #include "dem/walls/triangulated.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

@@ -1,16 +1,15 @@
 #include "dem/specimen/psd.h"
 #include "dem/error.h"
 #include "dem/io/psd_file.h"
+#include "tests/support/catch.h"
 #include "tests/support/repository.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
 using namespace mergel::dem;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 

@@ -1,9 +1,8 @@
 #include "dem/io/readable.h"
 
 #include "dem/error.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <fstream>
 
@@ -12,7 +11,7 @@
 
 using namespace mergel;
 using namespace mergel::dem;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE("a file that cannot be read is reported with the system's reason", "[unit][dem]")

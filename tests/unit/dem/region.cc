@@ -1,8 +1,8 @@
-#include "dem/specimen/region.h"
+#include "tests/support/catch.h"
+
 #include "dem/error.h"
 #include "dem/math/random.h"
-
-#include <catch2/catch.hpp>
+#include "dem/specimen/region.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,8 @@
 #include "dem/io/sample_file.h"
 
 #include "dem/io/seal.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <fstream>
 

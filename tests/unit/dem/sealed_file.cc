@@ -3,9 +3,9 @@
 #include "dem/io/sample_file.h"
 #include "dem/io/state/checkpoint.h"
 #include "dem/io/state/state_file.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
 
-#include <catch2/catch.hpp>
 #include <hdf5.h>
 
 #include <fstream>

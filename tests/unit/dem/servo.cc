@@ -1,6 +1,6 @@
-#include "dem/element/servo.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "dem/element/servo.h"
 
 #include <algorithm>
 

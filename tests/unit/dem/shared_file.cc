@@ -2,15 +2,14 @@
 
 #include "dem/error.h"
 #include "dem/io/seal.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <fstream>
 
 using namespace mergel;
 using namespace mergel::dem;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 namespace fs = std::filesystem;
 
 namespace {

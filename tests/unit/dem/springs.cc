@@ -3,9 +3,8 @@
 #include "dem/assembly/block_bound.h"
 #include "dem/assembly/largest_frequency.h"
 #include "dem/assembly/step.h"
+#include "tests/support/catch.h"
 #include "tests/support/strain_controlled_assembly.h"
-
-#include <catch2/catch.hpp>
 
 #include <cstring>
 #include <limits>

@@ -1,8 +1,7 @@
 // How the stable step of a run is guarded between two evaluations.
 #include "dem/assembly/step.h"
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 #include <limits>
 

@@ -1,11 +1,10 @@
 #include "dem/pairs/strength.h"
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
 
 #include "dem/error.h"
 #include "dem/walls/mirror.h"
 #include "dem/walls/triangulated.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

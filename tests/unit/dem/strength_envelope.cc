@@ -1,9 +1,9 @@
 /// Coulomb lines and stress ratios of several tests.
+#include "tests/support/catch.h"
+
 #include "dem/element/strength_envelope.h"
 #include "dem/math/random.h"
 #include "dem/notation.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
+#include "tests/support/catch.h"
+
 #include "dem/element/stress_path.h"
 
 #include "dem/error.h"
-
-#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,8 @@
 #include "dem/specimen/surface_load.h"
 #include "dem/error.h"
 #include "dem/io/state/assembly_state.h"
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
-
-#include <catch2/catch.hpp>
 
 using namespace mergel::dem;
 using namespace mergel::dem::test;

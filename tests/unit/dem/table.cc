@@ -1,8 +1,8 @@
+#include "tests/support/catch.h"
+
 #include "dem/io/table.h"
 
 #include "dem/error.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -80,9 +80,10 @@ TEST_CASE("a missing column is refused, and a wrong unit with the unit found",
   const File file("time [s],q_c [MPa]\n0,1\n");
   const Table table = read_table(file.path);
   CHECK_THROWS_AS(table.column("depth", "m"), InputError);
-  CHECK_THROWS_WITH(table.column("q_c", "Pa"), Catch::Contains(file.path.string()) &&
-                                                   Catch::Contains("'q_c [Pa]'") &&
-                                                   Catch::Contains("'q_c [MPa]'"));
+  CHECK_THROWS_WITH(table.column("q_c", "Pa"),
+                    mergel::match::Contains(file.path.string()) &&
+                        mergel::match::Contains("'q_c [Pa]'") &&
+                        mergel::match::Contains("'q_c [MPa]'"));
 }
 
 TEST_CASE("the line a run is still writing is left out and reported", "[unit][dem]")
@@ -142,31 +143,33 @@ TEST_CASE("a column is given in any unit whose size is known", "[unit][dem]")
   CHECK(table.column_in("u", "m", size) == std::vector<double>{0.5 * 1e-3});
   CHECK(table.column_in("u", "mm", {}) == std::vector<double>{0.5});
   CHECK_THROWS_WITH(table.column_in("u", "s", size),
-                    Catch::Contains("column 'u': [mm] is no [s]"));
-  CHECK_THROWS_WITH(table.column_in("s", "m", size), Catch::Contains("has no unit"));
-  CHECK_THROWS_WITH(table.column_in("v", "m", size), Catch::Contains("no column 'v [m]'"));
+                    mergel::match::Contains("column 'u': [mm] is no [s]"));
+  CHECK_THROWS_WITH(table.column_in("s", "m", size),
+                    mergel::match::Contains("has no unit"));
+  CHECK_THROWS_WITH(table.column_in("v", "m", size),
+                    mergel::match::Contains("no column 'v [m]'"));
 }
 
 TEST_CASE("bytes that are no plain text are written out in messages", "[unit][dem]")
 {
   CHECK_THAT(message_of("a [m]\n\xC2\xA0\x01\n"),
-             Catch::Contains("'\\xc2\\xa0\\x01' under 'a' is not a number"));
+             mergel::match::Contains("'\\xc2\\xa0\\x01' under 'a' is not a number"));
 }
 
 TEST_CASE("a damaged history is refused with file and line", "[unit][dem]")
 {
   const std::string head = "time [s],depth [m]\n";
   CHECK_THAT(message_of(head + "1,2\n3\n"),
-             Catch::Contains(":3: 1 values under 2 headings"));
+             mergel::match::Contains(":3: 1 values under 2 headings"));
   CHECK_THAT(message_of(head + "1,2,3\n"),
-             Catch::Contains(":2: 3 values under 2 headings"));
+             mergel::match::Contains(":2: 3 values under 2 headings"));
   CHECK_THAT(message_of(head + "1,two\n"),
-             Catch::Contains(":2: 'two' under 'depth' is not a number"));
-  CHECK_THAT(message_of(head + "1,2m\n"), Catch::Contains("'2m'"));
-  CHECK_THAT(message_of(head), Catch::Contains("no record"));
-  CHECK_THAT(message_of(""), Catch::Contains("no record"));
-  CHECK_THAT(message_of("a [m],a [s]\n1,2\n"), Catch::Contains("two columns"));
-  CHECK_THAT(message_of("a [m],\n1,2\n"), Catch::Contains("no name"));
+             mergel::match::Contains(":2: 'two' under 'depth' is not a number"));
+  CHECK_THAT(message_of(head + "1,2m\n"), mergel::match::Contains("'2m'"));
+  CHECK_THAT(message_of(head), mergel::match::Contains("no record"));
+  CHECK_THAT(message_of(""), mergel::match::Contains("no record"));
+  CHECK_THAT(message_of("a [m],a [s]\n1,2\n"), mergel::match::Contains("two columns"));
+  CHECK_THAT(message_of("a [m],\n1,2\n"), mergel::match::Contains("no name"));
   CHECK_THROWS_AS(read_table("/nowhere/history.csv"), InputError);
   CHECK_THROWS_AS(read_table("/tmp"), InputError);
   CHECK_THROWS_AS(read_table(std::string(300, 'x')), InputError);

@@ -3,9 +3,8 @@
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
 #include "dem/version.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <csignal>
 #include <cstring>
@@ -248,8 +247,8 @@ TEST_CASE("a full disk throws, names file and reason, and leaves the earlier fil
       }
     }
     INFO("room for " << room << " of " << later.size() << " bytes");
-    CHECK_THAT(message,
-               Catch::Contains(file.string()) && Catch::Contains("File too large"));
+    CHECK_THAT(message, mergel::match::Contains(file.string()) &&
+                            mergel::match::Contains("File too large"));
     CHECK(contents(file) == earlier);
     CHECK(names_in(folder.path).size() == 2);
   }
@@ -262,8 +261,8 @@ TEST_CASE("a missing folder is named with the system's reason", "[unit][dem]")
 {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(write_points(folder.path / "no/points.vtp", positions(1), {}),
-                    Catch::Contains((folder.path / "no/points.vtp").string()) &&
-                        Catch::Contains("No such file or directory"));
+                    mergel::match::Contains((folder.path / "no/points.vtp").string()) &&
+                        mergel::match::Contains("No such file or directory"));
 }
 
 TEST_CASE("a replaced file is the old one until its writer has returned", "[unit][dem]")
@@ -342,5 +341,5 @@ TEST_CASE("a file that is not a series is refused by name", "[unit][dem]")
                "<?xml version=\"1.0\"?>\n<VTKFile><Piece/></VTKFile>\n");
   CHECK_THROWS_AS(read_series(folder.path / "a.pvd"), InputError);
   CHECK_THROWS_WITH(read_series(folder.path / "b.pvd"),
-                    Catch::Contains((folder.path / "b.pvd").string()));
+                    mergel::match::Contains((folder.path / "b.pvd").string()));
 }

@@ -1,10 +1,9 @@
 // Contacts and bonds of a triangulated wall are computed a batch at a time: each gets the bits
 // that it gets by itself.
+#include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
 
 #include "dem/walls/patch_features.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 

@@ -1,13 +1,12 @@
 #include "fem/far_field/far_field.h"
 #include "fem/boundary_ids.h"
 #include "fem/far_field/far_field_mesh.h"
+#include "tests/support/catch.h"
 #include "tests/support/small_chamber.h"
 
 #include <Eigen/Geometry>
 
 #include <deal.II/grid/grid_tools.h>
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -39,7 +38,7 @@ std::string complaint(FarFieldSpec s, void (*spoil)(FarFieldSpec&))
 TEST_CASE("Each wrong entry of the far field is named with its value", "[unit][fem]")
 {
   CHECK_NOTHROW(small_chamber().check());
-  using Catch::Contains;
+  using mergel::match::Contains;
   CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.nu = 0.6; }),
              Contains("Poisson's ratio = 0.6") && Contains("-1 < nu < 0.5"));
   CHECK_THAT(complaint(small_chamber(), [](auto& s) { s.nu = FarFieldSpec::unset; }),
@@ -248,16 +247,17 @@ TEST_CASE("Far-field output is written complete under its name, without other fi
   std::ifstream file(folder / "far_field.vtu");
   std::stringstream text;
   text << file.rdbuf();
-  CHECK_THAT(text.str(), Catch::Contains("Name=\"stress\"") &&
-                             Catch::Contains("Name=\"displacement\"") &&
-                             Catch::Contains("</VTKFile>"));
+  CHECK_THAT(text.str(), mergel::match::Contains("Name=\"stress\"") &&
+                             mergel::match::Contains("Name=\"displacement\"") &&
+                             mergel::match::Contains("</VTKFile>"));
   // A text as the codes of its letters: a, a blank, b, the end.
-  CHECK_THAT(text.str(),
-             Catch::Contains("Name=\"made by\" NumberOfTuples=\"1\" format=\"ascii\">"
+  CHECK_THAT(text.str(), mergel::match::Contains(
+                             "Name=\"made by\" NumberOfTuples=\"1\" format=\"ascii\">"
                              "\n97 32 98 0\n"));
   CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);
   std::filesystem::remove_all(folder);
-  CHECK_THROWS_WITH(field.write_vtu(folder / "far_field.vtu"), Catch::Contains("writable"));
+  CHECK_THROWS_WITH(field.write_vtu(folder / "far_field.vtu"),
+                    mergel::match::Contains("writable"));
 }
 
 TEST_CASE("The amplitudes of a far field give its symmetric stiffness, and J^T is the "

@@ -3,9 +3,8 @@
 #include "apps/view/laboratory/mean_runs.h"
 #include "apps/view/resolution.h"
 #include "dem/error.h"
+#include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -13,7 +12,7 @@
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 

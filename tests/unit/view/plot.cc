@@ -1,6 +1,6 @@
-#include "apps/view/plot.h"
+#include "tests/support/catch.h"
 
-#include <catch2/catch.hpp>
+#include "apps/view/plot.h"
 
 #include <cmath>
 #include <limits>

@@ -1,8 +1,8 @@
+#include "tests/support/catch.h"
+
 #include "apps/view/points.h"
 
 #include "dem/error.h"
-
-#include <catch2/catch.hpp>
 
 #include <cstdio>
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 
@@ -56,7 +56,7 @@ TEST_CASE("Points are converted to the units of the axes, in any order of column
 TEST_CASE("Points are named by their remark, else by their file", "[unit][view]")
 {
   CHECK(points("# yield, by eye\np,q\n1,2\n").label == "yield, by eye");
-  CHECK_THAT(points("p,q\n1,2").label, Catch::Matchers::StartsWith("mergel-points-"));
+  CHECK_THAT(points("p,q\n1,2").label, mergel::match::StartsWith("mergel-points-"));
 }
 
 TEST_CASE("Points are drawn on the panel of their names only", "[unit][view]")

@@ -1,15 +1,15 @@
+#include "tests/support/catch.h"
+
 #include "apps/view/quantity.h"
 
 #include "dem/error.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <string>
 
 using namespace mergel;
 using namespace mergel::apps;
-using Catch::Matchers::Contains;
+using mergel::match::Contains;
 
 namespace {
 

@@ -1,8 +1,8 @@
+#include "tests/support/catch.h"
+
 #include "apps/view/pile/section_image.h"
 
 #include "dem/error.h"
-
-#include <catch2/catch.hpp>
 
 #include <cmath>
 #include <limits>
@@ -74,7 +74,7 @@ TEST_CASE("An array that the fields lack is named", "[unit][view]")
 {
   const auto data = fields();
   CHECK_THROWS_WITH(SectionValues(data, "p [Pa]", 1, component(0)),
-                    Catch::Contains("no point array 'p [Pa]'"));
+                    mergel::match::Contains("no point array 'p [Pa]'"));
   CHECK_THROWS_AS(SectionValues(data, "q [Pa]", 3, component(0)), InputError);
 }
 
