@@ -251,8 +251,7 @@ public:
   };
   std::vector<Change> changes_since(const std::string& earlier_resolved_text) const;
 
-  /// Every key by section: name, unit, default, what is allowed, one sentence, of
-  /// folded_descriptions(). 92 columns.
+  /// Every key by section: name, unit, default, what is allowed, one sentence. 92 columns.
   void help(std::ostream& out) const;
 
   /// The declaration of a key.
@@ -268,10 +267,8 @@ public:
     bool exists_by_default = true; ///< whether its condition holds in a case of defaults
     std::string not_needed;        ///< "Specimen/coordination = 0"; "" for never
   };
-  /// All keys, section by section.
+  /// All keys, section by section; of numbered keys the first, and those of the case as read.
   std::vector<Description> descriptions() const;
-  /// The same; keys that differ only in their number are one, `stage N`.
-  std::vector<Description> folded_descriptions() const;
 
 private:
   struct Limits {

@@ -64,7 +64,7 @@ std::string keys_as_json(const CaseFile& file)
 std::string template_of(const CaseFile& file, const std::string& first_lines)
 {
   std::string text = wrapped(first_lines, "# ", columns), section;
-  std::string meaning; // of the key before: numbered keys share theirs
+  std::string meaning; // of the key before: like keys share theirs
   for (const CaseFile::Description& key : file.descriptions()) {
     if (key.section != section) {
       text += (section.empty() ? "" : "end\n") + ("\nsubsection " + key.section + "\n");

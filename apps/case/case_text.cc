@@ -106,49 +106,9 @@ std::vector<CaseFile::Description> CaseFile::descriptions() const
   return all;
 }
 
-namespace {
-
-/// "stage " of "stage 12"; "" of a name without a number at its end.
-std::string stem_of(const std::string& name)
-{
-  const auto last = name.find_last_not_of("0123456789");
-  if (last == std::string::npos || last + 1 == name.size() || name[last] != ' ') return "";
-  return name.substr(0, last + 1);
-}
-
-/// Whether two keys differ in their number alone.
-bool are_alike(const CaseFile::Description& a, const CaseFile::Description& b)
-{
-  return a.section == b.section && !stem_of(a.name).empty() &&
-         stem_of(a.name) == stem_of(b.name) && a.unit == b.unit &&
-         a.standard == b.standard && a.allowed == b.allowed && a.sentence == b.sentence &&
-         a.condition == b.condition && a.is_required == b.is_required;
-}
-
-} // namespace
-
-std::vector<CaseFile::Description> CaseFile::folded_descriptions() const
-{
-  const std::vector<Description> keys = descriptions();
-  std::vector<CaseFile::Description> result;
-  for (std::size_t k = 0; k < keys.size();) {
-    std::size_t end = k + 1;
-    while (end < keys.size() && are_alike(keys[k], keys[end])) ++end;
-    result.push_back(keys[k]);
-    if (end > k + 1) {
-      const std::string stem = stem_of(keys[k].name);
-      result.back().name = stem + "N";
-      result.back().sentence += " N = " + keys[k].name.substr(stem.size()) + " to " +
-                                keys[end - 1].name.substr(stem.size()) + ".";
-    }
-    k = end;
-  }
-  return result;
-}
-
 void CaseFile::help(std::ostream& out) const
 {
-  const std::vector<Description> keys = folded_descriptions();
+  const std::vector<Description> keys = descriptions();
   std::size_t name_width = 3, unit_width = 4, default_width = 8;
   for (const Description& key : keys) {
     name_width = std::max(name_width, key.name.size());

@@ -128,7 +128,7 @@ std::string man_page(const Job& job)
     if (!remarks.str().empty()) text += ".PP\n" + plain(remarks.str());
     std::string open;
     job.keys([&](const CaseFile& file) {
-      for (const CaseFile::Description& key : file.folded_descriptions()) {
+      for (const CaseFile::Description& key : file.descriptions()) {
         if (key.section != open) text += ".SS " + plain(key.section) + "\n";
         open = key.section;
         text += entry(key);

@@ -19,7 +19,7 @@ struct Kinds {
   double diameter = std::numeric_limits<double>::quiet_NaN(), gap = 1e-3, modulus = 0.0;
   std::string shape = "round", note;
   double exponent = 0.5;
-  std::vector<std::string> stages{"", "", ""};
+  std::map<std::size_t, std::string> stages;
 
   void declare(CaseFile& file)
   {
@@ -33,23 +33,22 @@ struct Kinds {
       file.number("exponent", exponent, positive, "Of the corner.");
     }
     file.text("note", note, "Anything.");
-    for (std::size_t k = 0; k < stages.size(); ++k)
-      file.text("stage " + std::to_string(k + 1), stages[k], "A stage.");
+    file.numbered("stage", stages, "A stage.", "The next stage.");
   }
 };
 
 } // namespace
 
-TEST_CASE("Keys that differ in their number alone are one line of the help", "[unit][apps]")
+TEST_CASE("Numbered keys are one line of help and template", "[unit][apps]")
 {
   Kinds kinds;
   CaseFile file;
   kinds.declare(file);
   std::ostringstream help;
   file.help(help);
-  CHECK_THAT(help.str(), Contains("stage N") && Contains("N = 1 to 3") &&
-                             !Contains("stage 1") && !Contains("stage 2"));
-  CHECK(file.descriptions().size() == file.folded_descriptions().size() + 2);
+  for (const std::string& text : {help.str(), template_of(file, "A case.")})
+    CHECK_THAT(text, Contains("stage 1") && Contains("A stage.") && !Contains("stage 2") &&
+                         !Contains("The next stage."));
 }
 
 TEST_CASE("The keys as JSON are read back by a parser of JSON", "[unit][apps]")
@@ -61,7 +60,7 @@ TEST_CASE("The keys as JSON are read back by a parser of JSON", "[unit][apps]")
   boost::property_tree::ptree tree;
   boost::property_tree::read_json(text, tree); // throws where it is none
   const auto& keys = tree.get_child("keys");
-  REQUIRE(keys.size() == 9);
+  REQUIRE(keys.size() == 7);
   const auto& diameter = keys.front().second;
   CHECK(diameter.get<std::string>("section") == "Pile");
   CHECK(diameter.get<std::string>("key") == "diameter");
