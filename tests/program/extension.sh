@@ -95,6 +95,20 @@ same_as_all extended
 diff -r all/fields extended/fields >log || fail "the pictures: $(cat log)"
 says element extended 'all its stages are done'
 
+# Two cycles are one and another one; each unloads to below the target.
+loop="Loading/stage 3=unload-reload to q = 0.3 MPa"
+cp -r two once
+cp -r two twice
+element --restart once --set "$loop" >log || fail "a cycle: $(tail -3 log)"
+element --restart once --set "$loop, 2 times" >log || fail "another cycle: $(tail -3 log)"
+element --restart twice --set "$loop, 2 times" >log || fail "two cycles: $(tail -3 log)"
+cmp once/history.csv twice/history.csv || fail "two cycles differ from one and another one"
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  { q = $at["q [Pa]"] } q > 0.31e6 { loaded = 1 } loaded && q < 0.305e6 { ++n; loaded = 0 }
+  END { exit n != 2 }' twice/history.csv || fail "the specimen was not unloaded twice"
+[ "$(code_of element --restart twice --set "$loop")" -eq 1 ] && grep -q 'only later stages may change' log ||
+  fail "a cycle less: $(cat log)"
+
 # The analysis alone: nothing is loaded.
 element --restart two --set "Analysis/yield offset=1e-4" >log || fail "another analysis: $(tail -3 log)"
 awk -F': ' '/"yield offset/ { x = $2 + 0 } END { exit x != 1e-4 }' two/summary.json || fail "the analysis was not repeated: $(cat two/summary.json)"
