@@ -20,10 +20,20 @@ void remark_on_stages(Remarks& remarks, const std::vector<dem::LoadingStage>& st
   }
 }
 
+void remark_on_frames(Remarks& remarks, const std::vector<dem::LoadingStage>& stages)
+{
+  expect_at_most(
+      remarks, "number of stages, each cycle two", static_cast<double>(stages.size()),
+      100.0,
+      "each has a frame of its own and a line of the summary; frames by strain alone: "
+      "`Output/pictures = strain`");
+}
+
 Remarks unusual(const ElementCase& c)
 {
   Remarks remarks;
   remark_on_stages(remarks, c.stages, c.stage_labels, c.strain_limit);
+  if (c.pictures == ElementCase::Pictures::stages) remark_on_frames(remarks, c.stages);
   expect_at_most(remarks, "Loading/inertial number", c.inertial_number, quasi_static,
                  "the test is not quasi-static");
   remark_on_specimen(remarks, c.specimen);
@@ -34,19 +44,28 @@ Remarks unusual(const ElementCase& c)
 double strain_of_stages(const std::vector<dem::LoadingStage>& stages, double modulus,
                         double limit)
 {
-  double sum = 0.0, stress = 0.0, strain = 0.0; // where the stage before has ended
+  struct End {
+    double stress = 0.0, strain = 0.0;
+  };
+  double sum = 0.0, unloading = 0.0; // unloading: strain of the last stage
+  End end, before; // where the last stage has ended, and the one before it
   for (const dem::LoadingStage& stage : stages) {
     const bool resumes = stage.kind == dem::PathKind::resume;
-    if (stage.has_lateral) sum += std::abs(stage.lateral - stress) / modulus;
-    if (stage.returns)
-      sum += std::abs(strain) + std::abs(stress) / modulus;
-    else if (dem::is_strain(stage.quantity)) {
-      sum += std::min(limit, std::abs(stage.target - (resumes ? strain : 0.0)));
-      strain = stage.target;
-    } else {
-      sum += std::min(limit, std::abs(stage.target - stress) / modulus);
-      stress = stage.target;
+    if (stage.has_lateral) sum += std::abs(stage.lateral - end.stress) / modulus;
+    if (stage.returns) { // what its unloading took, to where that began
+      sum += unloading;
+      end = before;
+      continue;
     }
+    before = end;
+    if (dem::is_strain(stage.quantity)) {
+      unloading = std::min(limit, std::abs(stage.target - (resumes ? end.strain : 0.0)));
+      end.strain = stage.target;
+    } else {
+      unloading = std::min(limit, std::abs(stage.target - end.stress) / modulus);
+      end.stress = stage.target;
+    }
+    sum += unloading;
   }
   return sum;
 }

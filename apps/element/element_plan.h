@@ -16,8 +16,12 @@ Plan plan_of(const CaseFile& file, const ElementCase& c);
 void remark_on_stages(Remarks& remarks, const std::vector<dem::LoadingStage>& stages,
                       const std::vector<StageLabel>& labels, double limit);
 
+/// Many stages where each has frames of its own.
+void remark_on_frames(Remarks& remarks, const std::vector<dem::LoadingStage>& stages);
+
 /// Strain that a test covers [-], every stage counted: strains to their targets, stresses by a
-/// modulus. @param modulus of the specimen [Pa] @param limit of a strain [-]
+/// modulus, a reloading as much as its unloading.
+/// @param modulus of the specimen [Pa] @param limit of a strain [-]
 double strain_of_stages(const std::vector<dem::LoadingStage>& stages, double modulus,
                         double limit);
 

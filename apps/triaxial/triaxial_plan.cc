@@ -11,6 +11,7 @@ Remarks unusual(const TriaxialCase& c)
 {
   Remarks remarks;
   remark_on_stages(remarks, c.stages, c.stage_labels, c.strain_limit);
+  if (c.pictures == TriaxialCase::Pictures::stages) remark_on_frames(remarks, c.stages);
   expect_at_most(remarks, "Loading/inertial number", c.inertial_number, quasi_static,
                  "the test is not quasi-static");
   remark_on_specimen(remarks, c.specimen);
