@@ -61,12 +61,23 @@ bool holds_only_a_specimen(const fs::path& folder)
          !is_there(folder / "far_field.pvd") && dem::checkpoints_in(folder).empty();
 }
 
+/// Whether the run has written force chains. Those of earlier versions, but for piles, have none.
+bool has_contacts(const fs::path& folder)
+{
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder / "fields", error))
+    if (entry.path().filename().string().starts_with("contacts_")) return true;
+  return is_there(folder / "contacts.pvd");
+}
+
 /// The series that a finished run of this job leaves.
 std::vector<std::string> series_of(const fs::path& folder, const std::string& job)
 {
   if (job == "pile")
     return {"particles", "bonds", "pile", "far_field", "fields", "contacts"};
-  if (job == "sample") return {"particles", "bonds", "contacts"};
+  std::vector<std::string> series{"particles", "bonds"};
+  if (has_contacts(folder)) series.push_back("contacts");
+  if (job == "sample") return series;
   if (job != "element" && job != "triaxial" && job != "brazilian") return {};
   const CaseScan scan = case_of(folder);
   const auto value_of = [&](const char* section, const char* key) {
@@ -78,7 +89,6 @@ std::vector<std::string> series_of(const fs::path& folder, const std::string& jo
   };
   const std::string pictures = value_of("Output", "pictures");
   if (pictures.empty() || pictures == "none") return {};
-  std::vector<std::string> series{"particles", "bonds", "contacts"};
   if (job == "triaxial") series.push_back("platens");
   if (job == "brazilian") series.insert(series.end(), {"breaks", "plates"});
   if (value_of("Membrane", "membrane") == "true") series.push_back("membrane");
