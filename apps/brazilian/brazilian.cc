@@ -64,6 +64,7 @@ private:
   std::optional<coupling::CoupledSystem> system_;
   std::optional<coupling::BrazilianTest> test_;
   std::optional<BrazilianOutput> output_; ///< on the first rank
+  double porosity_ = 0.0;                 ///< of the specimen as made [-]
   double next_frame_ = 0.0; ///< diametral strain of the next picture by strain [-]
 };
 
@@ -97,6 +98,7 @@ void BrazilianJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
 {
   const dem::Sample sample = obtain_sample(file, case_.specimen);
   std::cout << report(case_.specimen, sample) << '\n';
+  porosity_ = sample.packing.porosity;
   dem::Particles particles = sample.packing.particles;
   coupling::lay_disc(particles, case_.disc());
   system_.emplace(coupled_spec(case_), std::vector<coupling::StructureSpec>{}, particles,
@@ -120,6 +122,7 @@ void BrazilianJob::resume(Restart& restart, RunFolder& folder, MPI_Comm comm)
   dem::State& state = restart.checkpoint.state;
   on_first_rank([&] { std::cout << BrazilianOutput::check(restart.folder, state); });
   next_frame_ = state.get_rows<double>("next_frame", 1).front();
+  porosity_ = state.get_rows<double>("porosity", 1).front();
   const dem::State& numbers = state;
   system_.emplace(coupled_spec(case_), std::vector<coupling::StructureSpec>{}, state,
                   coupling::BrazilianTest::plates(case_.plate_contact), comm);
@@ -142,10 +145,8 @@ std::string BrazilianJob::record()
 void BrazilianJob::frame()
 {
   const auto assembly = dem::gather_on_first_rank(system_->assembly);
-  on_first_rank([&] {
-    output_->frame(system_->time, *assembly, *system_, *test_,
-                   case_.specimen.specimen.porosity);
-  });
+  on_first_rank(
+      [&] { output_->frame(system_->time, *assembly, *system_, *test_, porosity_); });
 }
 
 std::string BrazilianJob::now() const
@@ -190,6 +191,7 @@ void BrazilianJob::save(dem::State& state) const
   system_->save(state);
   test_->save(state);
   state.add_common<double>("next_frame", {next_frame_});
+  state.add_common<double>("porosity", {porosity_});
   BrazilianOutput::save(state, output_ ? &*output_ : nullptr);
 }
 
