@@ -12,7 +12,7 @@ few=("$root/apps/cases/element_small.prm" --set "Specimen/edge x=2.6 mm" --set "
 test=(--set "Loading/stage 1=isotropic to volumetric strain = 0.1 %" --set "Loading/stage 2=" --set "Loading/stage 3="
   --set "Loading/stage 4=")
 mkdir one five
-figure() { awk -F': ' -v name="\"$2\"" 'index($0, name) { print $2 + 0 }' "$1/summary.json"; }
+figure() { awk -F': ' -v name="\"$2\"" 'index($0, name) { sub(/,$/, "", $2); print $2 }' "$1/summary.json"; } # as it stands there
 
 # same NAME FILE COMMAND...: FILE of the results, or the last line of a refusal, on 1 and 5 ranks
 same()
@@ -37,7 +37,7 @@ for case in "4 0.964" "3 0.9733" "2 0.9822"; do
   [ "$(figure "one/sample$n" "largest difference of the size curves by mass [-]")" = 0 ] &&
     [ "$(figure "one/sample$n" "largest difference of the size curves by number [-]")" = 0 ] ||
     fail "equal particles are not as wanted: $(cat "sample$n.one")"
-  grep -Eqi ': -?(nan|inf)' "five/sample$n/summary.json" && fail "summary.json holds a NaN"
+  grep -q ': null' "five/sample$n/summary.json" && fail "a number of summary.json is not finite"
   same "element$n" history.csv element "${few[@]}" "${test[@]}" --set "Specimen/porosity=$porosity"
   echo "$n particles: sample and element test alike on 1 and 5 ranks; $(tail -1 "element$n.one")"
 done
@@ -47,7 +47,7 @@ for case in "1 0.9911" "0 0.9999"; do
   for job in sample element; do
     same "$job$n" none "$job" "${few[@]}" --set "Specimen/porosity=$porosity"
     [ "$(code_of "$mergel" "$job" "${few[@]}" --set "Specimen/porosity=$porosity" --output "none$n")" -eq 1 ] &&
-      grep -q "Specimen/porosity = $porosity: leaves room for $n particles" log || fail "$job of $n particles: $(cat log)"
+      grep -q "Specimen/porosity = $porosity: leaves room for fewer than two particles" log || fail "$job of $n particles: $(cat log)"
     [ ! -e "none$n" ] || fail "results of $n particles"
   done
 done

@@ -60,7 +60,7 @@ grep -q '^stress at the start, of the cell: p 0\.[01]' e.log || fail "the stress
 records e 'NR > 2 && (c("Z of bonds [-]") > 0 || c("Z of contacts [-]") < 3) { bad = 1 }
   c("stage [-]") == 2 { r = c("q [Pa]") / c("p [Pa]") }
   END { print "cell: q/p " r; exit bad || !(r > 0.8 && r < 1.6) }' || fail "the cell without bonds"
-! grep -qiE '(^|[,: ])-?(nan|inf)\b' e/history.csv e/summary.json a/history.csv a/summary.json rock/summary.json e.log ||
+! grep -qiE '(^|[,: ])-?(nan|inf)\b|: null' e/history.csv e/summary.json a/history.csv a/summary.json rock/summary.json e.log ||
   fail "a number is not finite"
 
 # Refused, in one line, before anything is written.

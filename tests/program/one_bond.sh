@@ -7,7 +7,7 @@
 figure() { awk -F': ' -v name="\"$2\"" 'index($0, name) { print $2 + 0 }' "$1/summary.json"; }
 # near VALUE EXPECTED RELATIVE
 near() { awk -v a="$1" -v b="$2" -v e="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(d <= e * (b < 0 ? -b : b)) }'; }
-holds_nan() { grep -Eqi 'nan|inf' "$1/history.csv" "$1/summary.json"; }
+holds_nan() { grep -Eqi 'nan|inf|: null' "$1/history.csv" "$1/summary.json"; }
 
 for case_file in "$root"/apps/cases/bond_*.prm; do
   run=$(basename "$case_file" .prm)

@@ -9,7 +9,14 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 mergel=$(readlink -f "$1")
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+launched='' # see launch()
+# A test that is ended while its run stands still, see wait_for(), lets it go on to its own end.
+leave()
+{
+  [ -z "$launched" ] || signal_ranks CONT || true
+  rm -rf "$work"
+}
+trap leave EXIT
 cd "$work"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
 

@@ -109,8 +109,8 @@ def read_members(job, value, where):
         for name, member in value.items():
             row_of(job, "summary.json", name, where)
             read_members(job, member, where)
-    elif isinstance(value, float) and not math.isfinite(value):
-        problem(f"{where}: {value} is not finite")
+    elif value is None or isinstance(value, float) and not math.isfinite(value):
+        problem(f"{where}: a number is not finite")
 
 
 def read_summary(job, path):

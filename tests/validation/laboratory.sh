@@ -61,7 +61,7 @@ all_done() {
 }
 # value NAME QUANTITY [NTH]: a value of a summary, of the NTH stage that has it; "nan" if none has
 value() {
-  awk -F': ' -v name="\"$2 [" -v nth="${3:-1}" 'index($1, name) && ++n == nth { v = $2 + 0; found = 1 }
+  awk -F': ' -v name="\"$2 [" -v nth="${3:-1}" 'index($1, name) && ++n == nth { v = $2 + 0; found = $2 !~ /null/ }
     END { print found ? v : "nan" }' "$1/summary.json"
 }
 # at NAME "column" "strain column" STRAIN: linear in a history

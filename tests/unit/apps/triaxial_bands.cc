@@ -101,7 +101,7 @@ TEST_CASE("A line of localisation.csv has a number for each of its headings",
   r.shear.band = {Vec3(0.0, std::sin(60 * degree), std::cos(60 * degree)), 1e-3, 5e-3, 0.7,
                   0.2};
   const auto headings = band_headings();
-  const auto line = band_line(r, 5e-4, {3, 2, "unload-reload to q = 0 MPa, reloading"});
+  const auto line = band_line(r, 5e-4, {3, 2, 0, "unload-reload to q = 0 MPa, reloading"});
   REQUIRE(line.size() == headings.size());
   const auto value = [&](const char* name) {
     const auto it = std::find(headings.begin(), headings.end(), name);
