@@ -28,7 +28,7 @@ std::string violation(const Range& range, const std::string& range_text,
 /// A name without the double quotes around it.
 std::string unquoted(const std::string& name)
 {
-  const bool is_quoted = name.size() > 2 && name.front() == '"' && name.back() == '"';
+  const bool is_quoted = name.size() >= 2 && name.front() == '"' && name.back() == '"';
   return is_quoted ? name.substr(1, name.size() - 2) : name;
 }
 
@@ -317,9 +317,10 @@ void CaseFile::path(const std::string& key, std::filesystem::path& target,
        .is_required = is_required,
        .write_hint = "the name of a file",
        .parse = [=, &target](const std::string& text, const std::filesystem::path& base) {
-         if (is_required && text.empty())
+         const std::string name = unquoted(text);
+         if (is_required && name.empty())
            throw InputError("must not be empty. " + sentence);
-         target = text.empty() ? std::filesystem::path{} : absolute(unquoted(text), base);
+         target = name.empty() ? std::filesystem::path{} : absolute(name, base);
          return target.string();
        }});
 }

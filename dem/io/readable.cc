@@ -49,12 +49,13 @@ std::error_code listing_error(const std::filesystem::path& folder)
 
 std::string with_remedy(const std::error_code& error)
 {
+  if (error == std::errc::invalid_seek)
+    return "it is a pipe or a device. Name a regular file";
   const auto remedy = [&] {
     if (error == std::errc::permission_denied)
       return "Check its permissions and those of its folders";
     if (error == std::errc::is_a_directory) return "Name a file in it";
     if (error == std::errc::filename_too_long) return "Give a shorter name";
-    if (error == std::errc::invalid_seek) return "Name a regular file";
     return "Check the name";
   };
   return error.message() + ". " + remedy();

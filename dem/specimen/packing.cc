@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -48,11 +49,11 @@ double porosity_at(const SpecimenSpec& s, double fraction)
 /// @param n number of particles, or its expected value
 void require_several(double n)
 {
-  const double whole = std::round(n);
-  if (whole < static_cast<double>(fewest_particles))
-    throw InputError("leaves room for " + std::to_string(static_cast<int>(whole)) +
-                     " particles, and a specimen needs two at least: lower the porosity "
-                     "or the upscaling ratio, or enlarge the region");
+  if (std::round(n) >= static_cast<double>(fewest_particles)) return;
+  char number[32];
+  std::snprintf(number, sizeof number, "%.3g", n);
+  throw InputError("leaves room for fewer than two particles, for " + std::string(number) +
+                   ": lower the porosity or the upscaling ratio, or enlarge the region");
 }
 
 } // namespace
