@@ -9,6 +9,7 @@
 #endif
 #include <boost/property_tree/json_parser.hpp>
 
+#include <charconv>
 #include <cstdlib>
 #include <limits>
 
@@ -29,6 +30,15 @@ Findings numbers_in(const Tree& object)
     if (!text.empty() && *end == '\0') found.add(name, number);
   }
   return found;
+}
+
+/// The number of a stage in the case: 3 of "3", "3a" and "3b of cycle 2".
+std::size_t number_of(const Tree& stage, std::size_t n_before)
+{
+  const std::string text = stage.get<std::string>("number", "");
+  std::size_t number = n_before + 1; // earlier versions wrote none
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
 }
 
 } // namespace
@@ -53,8 +63,7 @@ std::optional<RunFindings> read_findings(const std::filesystem::path& folder)
   for (const auto& [name, member] : tree)
     if (name == "stages")
       for (const auto& [none, stage] : member)
-        if (!stage.get<std::string>("number", "").ends_with('b'))
-          found.stages.push_back(numbers_in(stage));
+        found.stages.emplace(number_of(stage, found.stages.size()), numbers_in(stage));
   return found;
 }
 

@@ -1,11 +1,11 @@
 /// What a run has written of itself in summary.json.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace mergel::apps {
 
@@ -22,8 +22,8 @@ private:
 
 struct RunFindings {
   Findings whole;
-  /// As the history numbers them, from 0; of an unload-reload those of its unloading.
-  std::vector<Findings> stages;
+  /// By their numbers in the case, from 1; of an unload-reload those of its first unloading.
+  std::map<std::size_t, Findings> stages;
 };
 
 /// None without a summary.json: a run that has not finished.

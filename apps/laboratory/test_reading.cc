@@ -141,8 +141,9 @@ StressState state_at_p(const std::vector<StressState>& curve, double p)
 
 void read_moduli(TestReading& r, const RunFindings& found)
 {
-  if (r.stage > found.stages.size()) return;
-  const Findings& stage = found.stages[r.stage - 1];
+  const auto of_stage = found.stages.find(r.stage);
+  if (of_stage == found.stages.end()) return;
+  const Findings& stage = of_stage->second;
   r.E = stage.at("Young's modulus [Pa]");
   r.nu = stage.at("Poisson's ratio [-]");
   r.K = stage.at("bulk modulus [Pa]");

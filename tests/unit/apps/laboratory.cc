@@ -100,9 +100,8 @@ TEST_CASE("Peak, minimum and end are those of the sheared stage, strains from it
           "[unit][apps]")
 {
   RunFindings found;
-  found.stages.resize(2);
-  found.stages[1].add("Young's modulus [Pa]", 1.1e9);
-  found.stages[1].add("strain at yield [-]", 3e-3);
+  found.stages[2].add("Young's modulus [Pa]", 1.1e9);
+  found.stages[2].add("strain at yield [-]", 3e-3);
   const TestReading r =
       reading_of(history(sheared(1e6, softening(4e6, 2e6), 0.2)), test_case(), found);
   CHECK(r.kind == TestKind::triaxial);
@@ -327,8 +326,28 @@ TEST_CASE("A summary gives its numbers by stage, and one that is no JSON is refu
   CHECK(found->whole.at("p at the end [Pa]") == 1.5e6);
   CHECK(std::isnan(found->whole.at("name")));
   REQUIRE(found->stages.size() == 2);
-  CHECK(found->stages[1].at("UCS [Pa]") == 4e6);
-  CHECK(found->stages[1].at("nu.x [-]") == 0.2);
+  CHECK(found->stages.at(2).at("UCS [Pa]") == 4e6);
+  CHECK(found->stages.at(2).at("nu.x [-]") == 0.2);
   std::ofstream(folder.path / "summary.json") << "{\"a\": ";
   CHECK_THROWS_WITH(read_findings(folder.path), Contains("summary.json"));
+}
+
+TEST_CASE(
+    "A stage of the case has the findings of its number, however many cycles are before",
+    "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  std::string stages;
+  double value = 0.0; // 1 for the first
+  for (const char* number :
+       {"1", "2a of cycle 1", "2b of cycle 1", "2a of cycle 2", "2b of cycle 2", "3"})
+    stages += (stages.empty() ? "" : ", ") + std::string("{\"number\": \"") + number +
+              "\", \"E [Pa]\": " + std::to_string(value += 1.0) + "}";
+  std::ofstream(folder.path / "summary.json") << "{\"stages\": [" << stages << "]}";
+  const auto found = read_findings(folder.path);
+  REQUIRE(found);
+  REQUIRE(found->stages.size() == 3);
+  CHECK(found->stages.at(1).at("E [Pa]") == 1.0);
+  CHECK(found->stages.at(2).at("E [Pa]") == 2.0); // its first unloading
+  CHECK(found->stages.at(3).at("E [Pa]") == 6.0);
 }
