@@ -97,14 +97,25 @@ CurvePoint peak(const Curve& c)
 
 namespace {
 
+/// Whether the curve was unloaded at this point: that ends a rise, and is no peak.
+bool is_unloaded_at(const Curve& c, std::size_t point)
+{
+  return c.is_after_loop(point + 1);
+}
+
+/// Whether the point is of a reloading that a further loop has ended: the curve lies above it.
+bool is_between_loops(const Curve& c, std::size_t point)
+{
+  return c.is_after_loop(point) && c.is_after_loop(point + 1);
+}
+
 /// The drop whose peak is point `top`.
 Drop drop_from(const Curve& c, std::size_t top)
 {
   std::size_t low = top;
-  for (std::size_t k = top + 1; k < c.stress.size() && c.stress[k] < c.stress[top]; ++k) {
-    if (c.is_after_loop(k) && c.stress[low] >= (1.0 - smallest_fall) * c.stress[top]) break;
-    if (c.stress[k] < c.stress[low]) low = k;
-  }
+  if (!is_unloaded_at(c, top))
+    for (std::size_t k = top + 1; k < c.stress.size() && c.stress[k] < c.stress[top]; ++k)
+      if (c.stress[k] < c.stress[low] && !is_between_loops(c, k)) low = k;
   return {{c.strain[top], c.stress[top]}, {c.strain[low], c.stress[low]}};
 }
 
@@ -118,15 +129,12 @@ Drop largest_drop(const Curve& c)
 
 std::optional<Drop> first_drop(const Curve& c, double share)
 {
-  std::size_t top = 0, low = 0; // since the top
+  std::size_t top = 0;
   for (std::size_t k = 1; k < c.stress.size(); ++k) {
-    const bool is_falling = c.stress[low] < (1.0 - smallest_fall) * c.stress[top];
-    if (c.stress[k] >= c.stress[top] || (c.is_after_loop(k) && !is_falling)) {
-      top = low = k;
-      continue;
-    }
-    if (c.stress[k] < c.stress[low]) low = k;
-    if (c.stress[k] < (1.0 - share) * c.stress[top]) return drop_from(c, top);
+    if (c.stress[k] >= c.stress[top] || (k == top + 1 && is_unloaded_at(c, top)))
+      top = k;
+    else if (c.stress[k] < (1.0 - share) * c.stress[top] && !is_between_loops(c, k))
+      return drop_from(c, top);
   }
   return {};
 }

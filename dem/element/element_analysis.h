@@ -53,8 +53,9 @@ std::optional<CurvePoint> offset_yield(const Curve& c, double modulus, double of
 CurvePoint peak(const Curve& c);
 
 /// A peak and the smallest stress between it and the next point that lies as high, or the
-/// end of the curve: both belong to one fall of the stress. A fall by less than `smallest_fall`
-/// ends at a loop: whoever unloads ends a rise, and that is no peak of the specimen.
+/// end of the curve: both belong to one fall of the stress. The last point before a loop is no
+/// peak of the specimen: whoever unloads there ends a rise. A fall that has begun goes on behind a
+/// loop, however small it is there; the end of a reloading between two loops counts in no fall.
 struct Drop {
   CurvePoint peak, minimum;
 };
@@ -65,7 +66,8 @@ struct Drop {
 Drop largest_drop(const Curve& c);
 
 /// The first from whose peak the stress falls by more than this share of the peak: collapse
-/// of a bonded rock that may harden later, beyond the peak.
+/// of a bonded rock that may harden later, beyond the peak. It may lie behind a larger stress at
+/// which the specimen was unloaded.
 std::optional<Drop> first_drop(const Curve& c, double share);
 
 /// Mobilised friction angle of Mohr and Coulomb without cohesion [rad]: sin phi = (sigma_1

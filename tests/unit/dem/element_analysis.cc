@@ -101,6 +101,17 @@ TEST_CASE("A point at which the curve was unloaded is no peak and no yield", "[u
   REQUIRE(first_drop(slowly, 0.1));
   CHECK(first_drop(slowly, 0.1)->peak.stress == 5.0);
 
+  // Unloaded just behind its peak, 1 % lower: the peak is not where the user has unloaded.
+  const Curve behind{{0, 1, 2, 3, 4, 5}, {0, 5.0, 4.95, 4.94, 4.0, 3.0}, {3}};
+  for (const Drop& drop : {*first_drop(behind, 0.02), largest_drop(behind)}) {
+    CHECK(drop.peak.stress == 5.0);
+    CHECK(drop.minimum.stress == 3.0);
+  }
+  // The same where the curve rises again, and where a further loop ends the reloading at 4.0.
+  CHECK_FALSE(first_drop(Curve{{0, 1, 2, 3, 4}, {0, 5.0, 4.95, 4.94, 6.0}, {3}}, 0.02));
+  const Curve cycles{{0, 1, 2, 3, 4, 5}, {0, 5.0, 4.95, 4.0, 4.96, 6.0}, {3, 4}};
+  CHECK_FALSE(first_drop(cycles, 0.02));
+
   // Two loops, the second before the first reloading has ended.
   const Curve twice{{0, 1, 2, 3, 4}, {0, 5.0, 4.0, 4.5, 5.5}, {2, 3}};
   CHECK(without_reloading(twice).strain == std::vector<double>{0, 1, 2, 3, 4});
