@@ -103,7 +103,7 @@ void read_off(std::vector<Finding>& found, const AnalysisKeys& keys,
     found.push_back(
         {std::string("minimum after the ") + names.peak, "Pa", largest.minimum.stress});
   const auto first = dem::first_drop(curve, dem::smallest_fall);
-  if (!first || !(first->peak.stress < largest.peak.stress)) return;
+  if (!first || !(first->peak.strain < largest.peak.strain)) return;
   found.push_back({"first peak before a collapse", "Pa", first->peak.stress});
   found.push_back({"minimum after the first peak", "Pa", first->minimum.stress});
 }

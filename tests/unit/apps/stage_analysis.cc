@@ -142,6 +142,43 @@ TEST_CASE("A loop on the way leaves no peak, minimum or yield where it was unloa
   CHECK(std::isnan(found(r, "oedometric yield"))); // passed across the loop
 }
 
+TEST_CASE("Unloaded behind its peak, a test has that peak and the minimum after it",
+          "[unit][apps]")
+{
+  // 5 MPa, unloaded at 4.95 and reloaded, down to 3.
+  RecordedTest t;
+  t.stage("compression to axial strain = 0.6 %");
+  t.stage("unload-reload to axial stress = 1 MPa");
+  t.stage("resume to axial strain = 1 %");
+  t.axial(0, {{0.0, 0.0}, {1e-3, 1e6}, {5e-3, 5e6}, {6e-3, 4.95e6}});
+  t.axial(1, {{6e-3, 4.95e6}, {3e-3, 1e6}});
+  t.axial(2, {{3e-3, 1e6}, {6e-3, 4.9e6}});
+  t.axial(3, {{6e-3, 4.9e6}, {7e-3, 4.94e6}, {8e-3, 4e6}, {1e-2, 3e6}});
+  const StageResult r = t.results()[0];
+  CHECK(found(r, "UCS") == 5e6);
+  CHECK(found(r, "minimum after the UCS") == 3e6);
+  CHECK(std::isnan(found(r, "first peak before a collapse")));
+  CHECK(std::isnan(found(r, "minimum after the first peak")));
+}
+
+TEST_CASE(
+    "A collapse behind the largest stress, at which the user unloaded, is no first one",
+    "[unit][apps]")
+{
+  RecordedTest t;
+  t.stage("compression to axial stress = 5 MPa");
+  t.stage("unload-reload to axial stress = 1 MPa");
+  t.stage("resume to axial strain = 1 %");
+  t.axial(0, {{0.0, 0.0}, {1e-3, 1e6}, {5e-3, 5e6}});
+  t.axial(1, {{5e-3, 5e6}, {2e-3, 1e6}});
+  t.axial(2, {{2e-3, 1e6}, {5e-3, 4.6e6}});
+  t.axial(3, {{5e-3, 4.6e6}, {6e-3, 4.9e6}, {8e-3, 2.5e6}});
+  const StageResult r = t.results()[0];
+  CHECK(found(r, "UCS") == 5e6); // bore it
+  CHECK(std::isnan(found(r, "minimum after the UCS")));
+  CHECK(std::isnan(found(r, "first peak before a collapse")));
+}
+
 TEST_CASE("A tension stage has a tensile strength, an extension stage a largest -q",
           "[unit][apps]")
 {
