@@ -102,7 +102,7 @@ void ElementJob::check_restart(const CaseFile& file, const Restart& restart) con
   earlier.critical_folders.clear(); // those runs may be gone; only the stages are needed
   apps::complete(earlier_file, earlier);
   const auto n = load_outcomes(restart.checkpoint.state, earlier.stages.size()).size();
-  if (!may_go_on(earlier.stages, case_.stages, n))
+  if (!may_go_on(earlier.stage_texts, case_.stage_texts, n))
     file.refuse("Loading", change->key,
                 "was \"" + change->was + "\", and the checkpoint is in stage " +
                     earlier.stage_labels[n - 1].name() +

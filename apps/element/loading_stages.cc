@@ -318,16 +318,35 @@ std::vector<StageLabel> labels_of(const StageTexts& texts)
   return labels;
 }
 
-bool may_go_on(const std::vector<LoadingStage>& earlier,
-               const std::vector<LoadingStage>& now, std::size_t n_begun)
+namespace {
+
+/// A stage of the test with its place in the case.
+struct NumberedStage {
+  std::size_t number;
+  LoadingStage stage; ///< its part follows from `returns`
+  bool operator==(const NumberedStage&) const = default;
+};
+
+std::vector<NumberedStage> numbered(const StageTexts& texts)
 {
-  const auto returns = [](const std::vector<LoadingStage>& stages, std::size_t k) {
-    return k < stages.size() && stages[k].returns;
+  std::vector<NumberedStage> stages;
+  for (const auto& [number, text] : texts)
+    for (const LoadingStage& stage : read_stages(text)) stages.push_back({number, stage});
+  return stages;
+}
+
+} // namespace
+
+bool may_go_on(const StageTexts& earlier, const StageTexts& now, std::size_t n_begun)
+{
+  const auto before = numbered(earlier), after = numbered(now);
+  const auto returns = [n_begun](const std::vector<NumberedStage>& stages) {
+    return n_begun < stages.size() && stages[n_begun].stage.returns;
   };
-  return n_begun <= std::min(earlier.size(), now.size()) &&
-         returns(earlier, n_begun) == returns(now, n_begun) &&
-         std::equal(earlier.begin(), earlier.begin() + static_cast<std::ptrdiff_t>(n_begun),
-                    now.begin());
+  return n_begun <= std::min(before.size(), after.size()) &&
+         returns(before) == returns(after) &&
+         std::equal(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(n_begun),
+                    after.begin());
 }
 
 } // namespace mergel::apps

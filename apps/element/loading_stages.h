@@ -55,8 +55,9 @@ struct StageLabel {
 std::vector<StageLabel> labels_of(const StageTexts& texts);
 
 /// Whether a test in which `n_begun` stages of `earlier` were begun may go on with `now`: these
-/// are the same, and so is the reloading where only the unloading of a stage was begun.
-bool may_go_on(const std::vector<dem::LoadingStage>& earlier,
-               const std::vector<dem::LoadingStage>& now, std::size_t n_begun);
+/// are the same with the same numbers, and so is the reloading where only the unloading of a
+/// stage was begun. A loop may be repeated more or less often, down to the cycles begun.
+/// @pre stages_of() has read these texts
+bool may_go_on(const StageTexts& earlier, const StageTexts& now, std::size_t n_begun);
 
 } // namespace mergel::apps

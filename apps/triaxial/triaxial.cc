@@ -120,7 +120,7 @@ void TriaxialJob::check_restart(const CaseFile& file, const Restart& restart) co
   earlier_file.read_text(restart.checkpoint.label.case_text, restart.file.string());
   apps::complete(earlier_file, earlier);
   const auto n = load_outcomes(restart.checkpoint.state, earlier.stages.size()).size();
-  if (!may_go_on(earlier.stages, case_.stages, n))
+  if (!may_go_on(earlier.stage_texts, case_.stage_texts, n))
     file.refuse("Loading", change->key,
                 "was \"" + change->was + "\", and the checkpoint is in stage " +
                     earlier.stage_labels[n - 1].name() +

@@ -108,6 +108,8 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
   END { exit n != 2 }' twice/history.csv || fail "the specimen was not unloaded twice"
 [ "$(code_of element --restart twice --set "$loop")" -eq 1 ] && grep -q 'only later stages may change' log ||
   fail "a cycle less: $(cat log)"
+[ "$(code_of element --restart twice --set "$loop" --set "${loop/stage 3/stage 4}")" -eq 1 ] && grep -q 'only later stages may change' log ||
+  fail "a cycle becomes a stage of its own: $(cat log)"
 
 # The analysis alone: nothing is loaded.
 element --restart two --set "Analysis/yield offset=1e-4" >log || fail "another analysis: $(tail -3 log)"

@@ -66,9 +66,8 @@ TEST_CASE(
     "[unit][apps]")
 {
   const auto read = [](const std::vector<std::string>& texts) {
-    std::vector<dem::LoadingStage> stages;
-    for (const std::string& text : texts)
-      for (const dem::LoadingStage& stage : read_stages(text)) stages.push_back(stage);
+    StageTexts stages;
+    for (const std::string& text : texts) stages[stages.size() + 1] = text;
     return stages;
   };
   const std::string shear = "triaxial to q = 2 MPa", loop = "unload-reload to q = 1 MPa",
@@ -81,6 +80,15 @@ TEST_CASE(
   // Of the loop only the unloading was begun: it stays a loop, and an unloading stays one.
   CHECK_FALSE(may_go_on(earlier, read({shear, unload, on}), 2));
   CHECK_FALSE(may_go_on(read({shear, unload}), read({shear, loop}), 2));
+  // A further cycle is no stage of its own: the records of both have been written as stage 2.
+  const auto cycles = read({shear, loop + ", 2 times"});
+  for (const std::size_t n_begun : {4u, 5u}) {
+    CHECK(may_go_on(cycles, read({shear, loop + ", 3 times"}), n_begun));
+    CHECK_FALSE(may_go_on(cycles, read({shear, loop, loop}), n_begun));
+    CHECK_FALSE(may_go_on(read({shear, loop, loop}), cycles, n_begun));
+  }
+  CHECK(may_go_on(cycles, read({shear, loop, loop}), 3));
+  CHECK_FALSE(may_go_on(cycles, read({shear, loop}), 4));
 }
 
 TEST_CASE("A cycle of unloading is as many pairs of stages as its number says",
