@@ -11,15 +11,16 @@ TestCase test_case_of(const std::string& text, const std::string& name)
   TestCase result;
   CaseScan scan = scan_case(text, name);
   for (const CaseEntry& e : scan.entries) {
-    if (e.section != "Loading" || !e.key.starts_with("stage ") || e.value.empty()) continue;
-    result.stages.push_back(e.value);
+    if (e.section == "Loading" && e.key.starts_with("stage ") && !e.value.empty())
+      result.stages.push_back(e.value);
   }
   std::sort(scan.entries.begin(), scan.entries.end(),
             [](const CaseEntry& a, const CaseEntry& b) {
               return a.section + '/' + a.key < b.section + '/' + b.key;
             });
   for (const CaseEntry& e : scan.entries) {
-    if (e.section == "Specimen" && e.key == "file") continue;
+    // An empty value is as none; versions differ in which of these they write.
+    if (e.value.empty() || (e.section == "Specimen" && e.key == "file")) continue;
     std::string& to = e.key == "seed" ? result.seeds : result.other_keys;
     to += e.section + '/' + e.key + '=' + e.value + '\n';
   }

@@ -13,8 +13,8 @@ struct TestCase {
   /// The keys named `seed`, "Section/seed=1". Runs with other seeds and all other keys alike
   /// are realisations of one test.
   std::string seeds;
-  /// All other keys but Specimen/file: a specimen file is refused unless it was made by the
-  /// keys of its run, the seed among them.
+  /// All other keys with a value, but Specimen/file: a specimen file is refused unless it was made
+  /// by the keys of its run, the seed among them.
   std::string other_keys;
 };
 

@@ -219,6 +219,18 @@ TEST_CASE("Runs are one group if and only if their cases differ by seed and spec
   CHECK(groups.members == std::vector<std::vector<std::size_t>>{{0, 2, 3}, {1}});
   CHECK(groups.notes.empty());
 
+  // Earlier versions wrote the keys that were not given.
+  TestReading earlier = test_at(1, "2");
+  earlier.test_case =
+      test_case_of("subsection Analysis\n  set critical state values =\nend\n"
+                   "subsection Specimen\n  set seed = 2\n  set file =\nend\n"
+                   "subsection Loading\n  set stage 1 = isotropic to p = 1 MPa\n"
+                   "  set stage 2 = triaxial to axial strain = 20 %\n"
+                   "  set stage 3 =\n  set stage 12 =\nend\n",
+                   "resolved.prm");
+  CHECK(group_by_seed({test_at(1, "1"), earlier}).members ==
+        std::vector<std::vector<std::size_t>>{{0, 1}});
+
   const RunGroups twice =
       group_by_seed({test_at(1, "1"), test_at(1, "2"), test_at(1, "1")});
   CHECK(twice.members == std::vector<std::vector<std::size_t>>{{0, 1}, {2}});
