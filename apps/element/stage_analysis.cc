@@ -1,5 +1,6 @@
 #include "apps/element/stage_analysis.h"
 
+#include "apps/case/words.h"
 #include "dem/element/element_analysis.h"
 #include "dem/text.h"
 
@@ -272,9 +273,9 @@ std::string json_of(const std::vector<StageResult>& stages)
   std::string text = "[";
   const char* comma = "\n";
   for (const StageResult& stage : stages) {
-    text += std::string(comma) + "    {\n      \"number\": \"" + stage.number +
-            "\",\n      \"stage\": \"" + stage.name + "\",\n      \"outcome\": \"" +
-            dem::sentence_of(stage.outcome) + "\"";
+    text += std::string(comma) + "    {\n      \"number\": " + in_json(stage.number) +
+            ",\n      \"stage\": " + in_json(stage.name) +
+            ",\n      \"outcome\": " + in_json(dem::sentence_of(stage.outcome));
     if (stage.broken_in_approach)
       text += ",\n      \"bonds broken in the approach [-]\": " +
               std::to_string(*stage.broken_in_approach);

@@ -1,5 +1,6 @@
 #include "apps/triaxial/band_summary.h"
 
+#include "apps/case/words.h"
 #include "apps/triaxial/band_output.h"
 #include "dem/element/element_analysis.h"
 #include "dem/text.h"
@@ -151,8 +152,8 @@ void summarise_bands(Summary& summary, const std::vector<coupling::BandRecord>& 
         at_end{"at the end", angles_at_end(points, r.stage, r.increment)};
     const std::string number = labels[r.stage].name();
     text +=
-        std::string(comma) + "    {\n      \"number\": \"" + number +
-        "\",\n      \"axial strain [-]\": " + number_in_json(r.axial_strain) +
+        std::string(comma) + "    {\n      \"number\": " + in_json(number) +
+        ",\n      \"axial strain [-]\": " + number_in_json(r.axial_strain) +
         ",\n      \"increment of the axial strain [-]\": " + number_in_json(r.increment) +
         json_of(at_peak) + json_of(at_end) + json_of(r, d_50) + "\n    }";
     comma = ",\n";

@@ -92,6 +92,17 @@ TEST_CASE("Modulus, Poisson's ratio and UCS come from the stage and those that r
                  Contains("stage 3, resume to axial strain = 1 %: "));
 }
 
+TEST_CASE("The words of a stage are a string of JSON, whatever the case has between them",
+          "[unit][apps]")
+{
+  RecordedTest t;
+  t.stage("isotropic to p =\t1 MPa");
+  t.add(0, 0.0, dem::Vec3::Zero(), dem::Vec3::Zero());
+  Summary summary;
+  summarise(summary, t.results(), {});
+  CHECK_THAT(summary.object(), Contains("\"stage\": \"isotropic to p =\\u00091 MPa\""));
+}
+
 TEST_CASE("A peak and the minimum after it are told of one fall of q", "[unit][apps]")
 {
   // Collapse from 3.987 to 2.49 MPa, hardening to 4.59, a fall to 3.986.
