@@ -207,6 +207,14 @@ std::string lacks_of_critical(const TestReading& r)
   return "";
 }
 
+/// Stages of the case that the history has.
+std::size_t n_begun(const dem::Table& history, const TestCase& test_case)
+{
+  const auto& stage = history.column("stage", "-");
+  const double begun = *std::max_element(stage.begin(), stage.end());
+  return std::min(static_cast<std::size_t>(std::max(begun, 0.0)), test_case.stages.size());
+}
+
 TestReading brazilian(const dem::Table& history, const TestCase& test_case,
                       const std::optional<RunFindings>& found)
 {
@@ -243,6 +251,19 @@ std::string name_of(TestKind kind)
   return "other";
 }
 
+void require_numbers_of_case(const dem::Table& history, const TestCase& test_case)
+{
+  const auto begin = test_case.stages.begin();
+  const bool has_loop =
+      std::any_of(begin, begin + static_cast<std::ptrdiff_t>(n_begun(history, test_case)),
+                  [](const std::string& s) { return kind_of(s) == "unload-reload"; });
+  require(
+      !has_loop || history.has("part"),
+      history.file.string() +
+          ": has no column 'part [-]': an earlier version of mergel has written it, "
+          "which counts an unload-reload as two stages. Repeat the run, or leave it out.");
+}
+
 TestReading reading_of(const dem::Table& history, const TestCase& test_case,
                        const std::optional<RunFindings>& found)
 {
@@ -251,20 +272,9 @@ TestReading reading_of(const dem::Table& history, const TestCase& test_case,
   require(is_element_history(history) || is_triaxial_history(history),
           history.file.string() +
               ": is the history of no element, triaxial or Brazilian test.");
-  const auto& stage = history.column("stage", "-");
-  const double begun = *std::max_element(stage.begin(), stage.end());
-  const auto n =
-      std::min(static_cast<std::size_t>(std::max(begun, 0.0)), test_case.stages.size());
+  const std::size_t n = n_begun(history, test_case);
   require(n > 0, history.file.string() + ": holds no stage of its resolved.prm.");
-
-  const bool has_loop =
-      std::any_of(test_case.stages.begin(), test_case.stages.end(),
-                  [](const std::string& s) { return kind_of(s) == "unload-reload"; });
-  require(
-      !has_loop || history.has("part"),
-      history.file.string() +
-          ": has no column 'part [-]': an earlier version of mergel has written it, "
-          "which counts an unload-reload as two stages. Repeat the run, or leave it out.");
+  require_numbers_of_case(history, test_case);
 
   TestReading r;
   r.test_case = test_case;

@@ -70,6 +70,12 @@ struct TestReading {
   }
 };
 
+/// Refuse a history whose stages are not numbered as in its case: earlier versions counted an
+/// unload-reload as two. One that has not begun changes nothing.
+/// @pre the history is not empty
+/// @throws InputError naming the history
+void require_numbers_of_case(const dem::Table& history, const TestCase& test_case);
+
 /// The first stage of triaxial compression of a test; without one the first under tension,
 /// otherwise the last isotropic stage, otherwise the last stage.
 /// A Brazilian test has no stages.

@@ -89,6 +89,17 @@ refused "'two' under 'q' is not a number" run_1 --compare bad.csv
 refused 'nowhere.csv: cannot be read' run_1 --compare nowhere.csv
 refused 'leave out --curve and --points' run_1 --compare lab.csv --curve "p:q"
 refused 'is no column of pile/history.csv' pile --compare lab.csv
+# An earlier version counted an unload-reload as two stages. Before it has begun the numbers are those of the case.
+cp -r run_1 begun
+sed -i 's/^  set stage 2 = .*/&\n  set stage 3 = unload-reload to q = 1 MPa/' begun/resolved.prm
+makes element.png begun --stage 2
+makes compare.png begun --compare lab.csv
+cp -r begun old
+awk -F, -v OFS=, 'NR > 150 { $2 = 3 } { print }' begun/history.csv >old/history.csv
+makes element.png old
+refused "old/history.csv: has no column 'part \[-\]'" old --stage 2
+refused "old/history.csv: has no column 'part \[-\]'" old --compare lab.csv
+refused "old/history.csv: has no column 'part \[-\]'" old --curve "axial strain:q" --stage 3
 refused '--mean: is for element and triaxial runs' pile --mean
 refused 'no two of the runs differ only by seed' run_1 run_2 --mean
 

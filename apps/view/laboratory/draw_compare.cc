@@ -38,9 +38,11 @@ std::vector<Run> runs_from_their_stages(const Options& options,
 {
   if (!options.stage.empty()) return runs_of(options, stages_of(options.stage), histories);
   std::vector<Run> runs = runs_of(options, {}, histories);
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    if (is_element_history(histories[k]) || is_triaxial_history(histories[k]))
-      runs[k].history = from_stages(histories[k], stage_read(options.folders[k], notes));
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (!is_element_history(histories[k]) && !is_triaxial_history(histories[k])) continue;
+    require_numbers_of_case(options.folders[k], histories[k]);
+    runs[k].history = from_stages(histories[k], stage_read(options.folders[k], notes));
+  }
   return runs;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/view/laboratory/draw_tests.h"
 
+#include "apps/laboratory/test_reading.h"
 #include "apps/view/brazilian.h"
 #include "apps/view/element.h"
 #include "apps/view/laboratory/mean_runs.h"
@@ -68,13 +69,21 @@ void draw_panels(const Options& options, const std::vector<RunPlot>& plots,
   save(options, page, output / name);
 }
 
+void require_numbers_of_case(const fs::path& folder, const dem::Table& history)
+{
+  if (dem::is_readable(folder / "resolved.prm"))
+    require_numbers_of_case(history, read_test_case(folder));
+}
+
 std::vector<Run> runs_of(const Options& options, const Stages& stages,
                          const std::vector<dem::Table>& histories)
 {
   const std::vector<RunName> names = run_names(options);
   std::vector<Run> runs;
-  for (std::size_t k = 0; k < histories.size(); ++k)
+  for (std::size_t k = 0; k < histories.size(); ++k) {
+    if (!stages.is_all()) require_numbers_of_case(options.folders[k], histories[k]);
     runs.push_back({names[k], from_stages(histories[k], stages)});
+  }
   return runs;
 }
 

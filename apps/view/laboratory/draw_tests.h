@@ -6,9 +6,15 @@
 #include "apps/view/run_plot.h"
 #include "dem/io/table.h"
 
+#include <filesystem>
 #include <vector>
 
 namespace mergel::apps {
+
+/// As apps/laboratory/test_reading.h has it, where the folder holds its case: without that the
+/// stages have the numbers of the history.
+void require_numbers_of_case(const std::filesystem::path& folder,
+                             const dem::Table& history);
 
 /// The chosen stages of runs, with their names.
 std::vector<Run> runs_of(const Options& options, const Stages& stages,

@@ -198,6 +198,10 @@ TEST_CASE("Loops of unloading are left out of a reading, and unload-reload is on
   table.columns.erase(table.columns.begin() + 1);
   CHECK_THROWS_WITH(reading_of(table, c, {}),
                     Contains("history.csv: has no column 'part [-]'"));
+  // Written before the loop began: the numbers are those of the case.
+  dem::Table begun = history({{1, 0, 0, 1e6, 0, 1}, {1, 0.01, 0.01, 2e6, 3e6, 1}});
+  begun.columns.erase(begun.columns.begin() + 1);
+  CHECK(reading_of(begun, c, {}).stage == 1);
 }
 
 TEST_CASE("A history without the stages of its case is refused", "[unit][apps]")
