@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace mergel::apps {
@@ -53,15 +54,13 @@ std::vector<CountedStrain> counted_in(const dem::Table& history)
   return strains;
 }
 
-/// Numbers of stage and part at each record; the part is 0 where the history has no such column.
+/// Numbers of stage and part at each record.
 struct StageColumns {
   const std::vector<double>& stage;
   std::vector<double> part;
 
   explicit StageColumns(const dem::Table& history)
-      : stage(history.column("stage", "-")),
-        part(history.has("part") ? history.column("part", "-")
-                                 : std::vector<double>(stage.size(), 0.0))
+      : stage(history.column("stage", "-")), part(parts_of(history))
   {
   }
   /// @param which part; 0: any
@@ -75,13 +74,15 @@ struct StageColumns {
       if (is(row, number, which)) return true;
     return false;
   }
-  bool is_of(std::size_t row, const Stages& s) const
+  /// Rows from the first record of the first stage to the last record of the last one: the parts of
+  /// a repeated unload-reload alternate. @pre has(s.first, s.first_part)
+  std::pair<std::size_t, std::size_t> rows_of(const Stages& s) const
   {
-    const bool has_begun =
-        stage[row] > s.first || (stage[row] == s.first && part[row] >= s.first_part);
-    const bool is_over = stage[row] > s.last || (stage[row] == s.last && s.last_part > 0 &&
-                                                 part[row] > s.last_part);
-    return has_begun && (s.last == 0 || !is_over);
+    std::size_t first = 0, last = stage.size() - 1;
+    while (!is(first, s.first, s.first_part)) ++first;
+    if (s.last == 0) return {first, last};
+    while (last > first && !(stage[last] < s.last || is(last, s.last, s.last_part))) --last;
+    return {first, last};
   }
 };
 
@@ -97,6 +98,12 @@ bool take_stage(std::string_view& text, int& number, int& part)
 }
 
 } // namespace
+
+std::vector<double> parts_of(const dem::Table& history)
+{
+  return history.has("part") ? history.column("part", "-")
+                             : std::vector<double>(history.n_rows, 0.0);
+}
 
 bool is_element_history(const dem::Table& history)
 {
@@ -160,10 +167,7 @@ dem::Table from_stages(const dem::Table& history, const Stages& stages)
              std::abs(strain.start(row) - strain.start(anchor)) < round_off;
     });
   };
-  const auto is_drawn = [&](std::size_t row) {
-    return columns.is_of(row, stages) &&
-           (stage[row] > stages.first || counts_as_anchor(row));
-  };
+  const auto [first_row, last_row] = columns.rows_of(stages);
   // A strain without one of its own for each stage counts from the record at which the axial
   // strain of the stage began.
   std::size_t begin = 0;
@@ -175,8 +179,8 @@ dem::Table from_stages(const dem::Table& history, const Stages& stages)
   result.n_rows = 0;
   result.lines.clear();
   for (dem::TableColumn& column : result.columns) column.values.clear();
-  for (std::size_t row = 0; row < history.n_rows; ++row) {
-    if (!is_drawn(row)) continue;
+  for (std::size_t row = first_row; row <= last_row; ++row) {
+    if (stage[row] == stages.first && !counts_as_anchor(row)) continue;
     ++result.n_rows;
     result.lines.push_back(history.lines[row]);
     for (std::size_t c = 0; c < history.columns.size(); ++c)

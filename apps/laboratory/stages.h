@@ -5,6 +5,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace mergel::apps {
 
@@ -21,11 +22,16 @@ bool is_element_history(const dem::Table& history);
 /// Whether this is the history of a triaxial test.
 bool is_triaxial_history(const dem::Table& history);
 
+/// Part of the unload-reload at each record, 1 unloading, 2 reloading; 0 elsewhere, and in a
+/// history without such a column.
+std::vector<double> parts_of(const dem::Table& history);
+
 /// Which stages are drawn, counted from 1 as in the case.
 struct Stages {
   int first = 0; ///< 0: all, with the strains of the whole test
   int last = 0;  ///< 0: to the end of the test
   /// Of an unload-reload: 1 from (or up to) its unloading, 2 its reloading; 0 the whole stage.
+  /// Of one that is repeated from the first such part, up to the last.
   int first_part = 0, last_part = 0;
   bool is_all() const { return first == 0; }
 };

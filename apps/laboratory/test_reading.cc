@@ -79,18 +79,20 @@ void read_curve(TestReading& r, const dem::Table& history, const Span& span)
   const auto &p = rows.column("p", "Pa"), &q = rows.column("q", "Pa");
   const auto& e = rows.column("void ratio", "-");
   const auto& stage = rows.column("stage", "-");
+  const std::vector<double> part = parts_of(rows);
   const double direction = strain.back() < 0.0 ? -1.0 : 1.0;
   double progress = -std::numeric_limits<double>::infinity();
-  std::size_t last = 0;    // row that goes on
-  bool has_turned = false; // since then
+  std::size_t last = 0;                            // row that goes on
+  bool has_turned = false, has_other_part = false; // since then
   for (std::size_t row = 0; row < rows.n_rows; ++row) {
+    has_other_part = has_other_part || stage[row] != stage[last] || part[row] != part[last];
     if (!(direction * strain[row] > progress)) {
       has_turned = has_turned || direction * strain[row] < progress;
       continue;
     }
     // Within one stage the axial strain may turn by itself, as in an isotropic one.
-    if (has_turned && stage[row] != stage[last]) r.loops.push_back(r.curve.size());
-    has_turned = false;
+    if (has_turned && has_other_part) r.loops.push_back(r.curve.size());
+    has_turned = has_other_part = false;
     last = row;
     progress = direction * strain[row];
     r.curve.push_back({strain[row], p[row], q[row], e[row]});

@@ -62,12 +62,19 @@ differs() {
   makes "$@"
   ! cmp -s before.png "out/$1" || fail "$*: the picture is the same"
 }
+# Two cycles of unloading and reloading in the second stage.
+mkdir cycles
+awk -F, -v OFS=, 'NR == 1 { print $0, "part [-]", "cycle [-]"; next }
+  { k = NR - 22; loop = k >= 0; print $0, (loop ? 1 + int(k / 5) % 2 : 0), (loop ? 1 + int(k / 10) : 0) }' sheared/history.csv >cycles/history.csv
 makes isotropic.png iso
 makes element.png sheared
 makes element.png iso sheared # one sheared run is enough for the panels of q
 makes element.png sheared
 differs element.png sheared --stage 2
 differs element.png sheared --stage 2 --points points.csv
+makes element.png cycles --stage 2b
+differs element.png cycles --stage 2a
+differs element.png cycles --stage 2a-2a
 makes triaxial.png cell
 differs triaxial.png cell --stage 2
 differs triaxial.png cell cell --label a --label b

@@ -194,6 +194,20 @@ TEST_CASE("Loops of unloading are left out of a reading, and unload-reload is on
   CHECK_FALSE(lower.peak);
   CHECK(lower.largest->q == Approx(6e6));
 
+  // Ten cycles, each of which goes on a little beyond the one before, at less stress.
+  std::vector<Record> records{{1, 0, 0, 1e6, 0, 1}, {1, 0.01, 0.01, 2e6, 3e6, 1}};
+  for (int k = 1; k <= 10; ++k) {
+    const double strain = 0.01 + 1e-4 * k, q = 3e6 - 0.1e6 * k;
+    records.push_back({2, 0.008, 0.008, 1e6, 0, 1, 1});
+    records.push_back({2, strain, strain, 1e6 + q / 3.0, q, 1, 2});
+  }
+  records.push_back({3, 0.0115, 0.0115, 1.8e6, 2.4e6, 1});
+  records.push_back({3, 0.02, 0.02, 3e6, 6e6, 1});
+  const TestReading cycles = reading_of(history(records), c, {});
+  CHECK(cycles.loops == std::vector<std::size_t>{2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+  CHECK_FALSE(cycles.peak);
+  CHECK(cycles.largest->q == Approx(6e6));
+
   // Written when a loop counted as two stages.
   table.columns.erase(table.columns.begin() + 1);
   CHECK_THROWS_WITH(reading_of(table, c, {}),

@@ -102,6 +102,13 @@ TEST_CASE("Parts of an unload-reload can be chosen", "[unit][view]")
   CHECK(lines("2-2") == Lines{4, 5, 6, 7});
   CHECK_THROWS_WITH(lines("3a"), Contains("no record of stage 3a, but of stage 3:"));
   CHECK_THROWS_WITH(lines("1-3b"), Contains("no record of stage 3b"));
+  // Two cycles: the parts alternate.
+  t.columns.back().values = {0, 0, 1, 2, 1, 2, 0, 0};
+  CHECK(lines("2a") == Lines{4, 5, 6, 7, 8, 9});
+  CHECK(lines("2b") == Lines{5, 6, 7, 8, 9});
+  CHECK(lines("2a-2a") == Lines{4, 5, 6});
+  CHECK(lines("2b-2b") == Lines{5, 6, 7});
+  CHECK(lines("1-2a") == Lines{2, 3, 4, 5, 6});
   for (const char* text : {"2c", "a", "2b-2a", "2ab", "2-a"})
     CHECK_THROWS_WITH(stages_of(text), Contains("must be the number of a stage"));
   const auto plots = element_plots({{{0, "a"}, t}}, stages_of("2b"));
