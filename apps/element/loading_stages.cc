@@ -297,7 +297,7 @@ std::string StageLabel::name() const
 {
   constexpr std::array<const char*, 3> letters{"", "a", "b"};
   return std::to_string(number) + letters.at(static_cast<std::size_t>(part)) +
-         (cycle == 0 ? "" : " of cycle " + std::to_string(cycle));
+         (is_repeated ? " of cycle " + std::to_string(cycle) : "");
 }
 
 std::vector<StageLabel> labels_of(const StageTexts& texts)
@@ -306,13 +306,13 @@ std::vector<StageLabel> labels_of(const StageTexts& texts)
   for (const auto& [number, text] : texts) {
     const std::size_t n_parts = read_stages(text).size();
     if (n_parts == 1) {
-      labels.push_back({number, 0, 0, text});
+      labels.push_back({number, 0, 0, text, false});
       continue;
     }
     for (std::size_t k = 0; k < n_parts; ++k) {
       const bool unloads = k % 2 == 0;
-      labels.push_back({number, unloads ? 1 : 2, n_parts == 2 ? 0 : k / 2 + 1,
-                        text + (unloads ? ", unloading" : ", reloading")});
+      labels.push_back({number, unloads ? 1 : 2, k / 2 + 1,
+                        text + (unloads ? ", unloading" : ", reloading"), n_parts > 2});
     }
   }
   return labels;

@@ -45,8 +45,9 @@ void check_granular_stages(const CaseFile& file, const StageTexts& texts);
 struct StageLabel {
   std::size_t number = 1; ///< of its key, from 1
   int part = 0;           ///< 0 the whole of it, 1 its unloading, 2 its reloading
-  std::size_t cycle = 0;  ///< of a loop that is repeated, from 1; else 0
+  std::size_t cycle = 0;  ///< of an unload-reload, from 1; else 0
   std::string text;       ///< as the case says it, "unload-reload to q = 1 MPa, unloading"
+  bool is_repeated = false; ///< an unload-reload of several cycles
 
   std::string name() const; ///< "3"; "3a" and "3b" for the parts; "3a of cycle 2"
 };

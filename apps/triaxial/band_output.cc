@@ -40,8 +40,9 @@ std::vector<NamedLocalisation> localisations(const coupling::BandRecord& r)
 
 std::vector<std::string> band_headings()
 {
-  std::vector<std::string> headings{"time [s]", "stage [-]", "part [-]", "axial strain [-]",
-                                    "increment of the axial strain [-]"};
+  std::vector<std::string> headings{
+      "time [s]",  "stage [-]",        "part [-]",
+      "cycle [-]", "axial strain [-]", "increment of the axial strain [-]"};
   const coupling::BandRecord any;
   for (const auto& [name, found] : localisations(any))
     for (const BandColumn& c : band_columns(found, 1.0))
@@ -52,8 +53,12 @@ std::vector<std::string> band_headings()
 std::vector<double> band_line(const coupling::BandRecord& r, double d_50,
                               const StageLabel& stage)
 {
-  std::vector<double> line{r.time, static_cast<double>(stage.number),
-                           static_cast<double>(stage.part), r.axial_strain, r.increment};
+  std::vector<double> line{r.time,
+                           static_cast<double>(stage.number),
+                           static_cast<double>(stage.part),
+                           static_cast<double>(stage.cycle),
+                           r.axial_strain,
+                           r.increment};
   for (const auto& [name, found] : localisations(r))
     for (const BandColumn& c : band_columns(found, d_50)) line.push_back(c.value);
   return line;

@@ -106,6 +106,15 @@ cmp once/history.csv twice/history.csv || fail "two cycles differ from one and a
 awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
   { q = $at["q [Pa]"] } q > 0.31e6 { loaded = 1 } loaded && q < 0.305e6 { ++n; loaded = 0 }
   END { exit n != 2 }' twice/history.csv || fail "the specimen was not unloaded twice"
+stages=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  { s = $at["stage [-]"] "." $at["part [-]"] "." $at["cycle [-]"]; if (s != before) printf "%s ", s; before = s }' once/history.csv)
+[ "$stages" = "1.0.0 2.0.0 3.1.1 3.2.1 3.1.2 3.2.2 " ] || fail "the stages of two cycles: $stages"
+# Read beside the test without a loop: as stiff, and with no other peak, such as where it was unloaded.
+"$mergel" compare two twice --output compared >log 2>&1 || fail "compare: $(cat log)"
+awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }
+  { E[NR] = $at["Young\047s modulus [Pa]"]; kind[NR] = $at["kind"]; peak[NR] = $at["q at the peak [Pa]"] }
+  END { exit !(NR == 3 && E[2] > 0 && E[3] == E[2] && kind[3] == "triaxial" && peak[3] == peak[2]) }' compared/tests.csv ||
+  fail "two cycles in mergel compare: $(cat compared/tests.csv)"
 [ "$(code_of element --restart twice --set "$loop")" -eq 1 ] && grep -q 'only later stages may change' log ||
   fail "a cycle less: $(cat log)"
 [ "$(code_of element --restart twice --set "$loop" --set "${loop/stage 3/stage 4}")" -eq 1 ] && grep -q 'only later stages may change' log ||

@@ -22,8 +22,10 @@ stages=(--set "Loading/stage 3=" --set "Loading/stage 4=")
 
 run bond bond_fig4a_tension.prm
 run sample element_small.prm "${cell[@]}" --set "Specimen/packing=confined" --set "Specimen/target pressure=100 kPa"
-run element element_small.prm "${cell[@]}" "${varied[@]}" "${stages[@]}" --set "Loading/stage 1=isotropic to p = 0.4 MPa" \
-  --set "Loading/stage 2=triaxial at 0.4 MPa to axial strain = 0.2 %"
+run element element_small.prm "${cell[@]}" "${varied[@]}" --set "Loading/stage 1=isotropic to p = 0.4 MPa" \
+  --set "Loading/stage 2=triaxial at 0.4 MPa to axial strain = 0.2 %" \
+  --set "Loading/stage 3=unload-reload to q = 0.5 MPa, 2 times" --set "Loading/stage 4="
+grep -q '"number": "3b of cycle 2"' element/summary.json || fail "the cycles of the element test: $(cat element/summary.json)"
 run triaxial triaxial_small.prm --set "Specimen/diameter=3.6 mm" --set "Specimen/height=5 mm" "${stages[@]}" \
   --set "Loading/stage 1=isotropic to p = 0.2 MPa" --set "Loading/stage 2=triaxial at 0.2 MPa to axial strain = 0.05 %" \
   --set "Membrane/density=20000 kg/m3" --set "Output/localisation every=1e-4"

@@ -56,9 +56,12 @@ TEST_CASE(
                                  "3: resume to axial stress = 10 MPa"});
   CHECK(labels_of(texts)[2].number == 2);
   CHECK(labels_of(texts)[2].part == 2);
+  CHECK(labels_of(texts)[2].cycle == 1); // not named, where there is one
   const auto loops = labels_of({{1, "unload-reload to q = 1 MPa, 2 times"}});
   REQUIRE(loops.size() == 4);
   CHECK(loops[3].name() == "1b of cycle 2");
+  CHECK(loops[1].name() == "1b of cycle 1");
+  CHECK(loops[1].cycle == 1);
 }
 
 TEST_CASE(
