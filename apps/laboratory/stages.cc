@@ -54,55 +54,83 @@ std::vector<CountedStrain> counted_in(const dem::Table& history)
   return strains;
 }
 
-/// Numbers of stage and part at each record.
+std::vector<double> values_or_zero(const dem::Table& history, const std::string& name)
+{
+  return history.has(name) ? history.column(name, "-")
+                           : std::vector<double>(history.n_rows, 0.0);
+}
+
+/// Numbers of stage, part and cycle at each record.
 struct StageColumns {
   const std::vector<double>& stage;
-  std::vector<double> part;
+  std::vector<double> part, cycle;
 
   explicit StageColumns(const dem::Table& history)
-      : stage(history.column("stage", "-")), part(parts_of(history))
+      : stage(history.column("stage", "-")), part(parts_of(history)),
+        cycle(values_or_zero(history, "cycle"))
   {
   }
-  /// @param which part; 0: any
-  bool is(std::size_t row, int number, int which) const
+  /// @param which, in part and cycle; 0: any
+  bool is(std::size_t row, int number, int which, int in) const
   {
-    return stage[row] == number && (which == 0 || part[row] == which);
+    return stage[row] == number && (which == 0 || part[row] == which) &&
+           (in == 0 || cycle[row] == in);
   }
-  bool has(int number, int which) const
+  bool has(int number, int which, int in) const
   {
     for (std::size_t row = 0; row < stage.size(); ++row)
-      if (is(row, number, which)) return true;
+      if (is(row, number, which, in)) return true;
     return false;
   }
   /// Rows from the first record of the first stage to the last record of the last one: the parts of
-  /// a repeated unload-reload alternate. @pre has(s.first, s.first_part)
+  /// a repeated unload-reload alternate. @pre both are there
   std::pair<std::size_t, std::size_t> rows_of(const Stages& s) const
   {
     std::size_t first = 0, last = stage.size() - 1;
-    while (!is(first, s.first, s.first_part)) ++first;
+    while (!is(first, s.first, s.first_part, s.first_cycle)) ++first;
     if (s.last == 0) return {first, last};
-    while (last > first && !(stage[last] < s.last || is(last, s.last, s.last_part))) --last;
+    while (last > first &&
+           !(stage[last] < s.last || is(last, s.last, s.last_part, s.last_cycle)))
+      --last;
     return {first, last};
   }
 };
 
-/// Read "3" or "3a" from the start of the text, and take it off. @return whether it is there
-bool take_stage(std::string_view& text, int& number, int& part)
+/// Take a number from 1 on off the start of the text. @return whether it is there
+bool take_number(std::string_view& text, int& number)
 {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || number < 1) return false;
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return true;
+}
+
+/// Take "3", "3a" or "3a of cycle 2" off the start of the text. @return whether it is there
+bool take_stage(std::string_view& text, int& number, int& part, int& cycle)
+{
+  constexpr std::string_view of_cycle = " of cycle ";
+  if (!take_number(text, number)) return false;
   part = text.starts_with('a') ? 1 : text.starts_with('b') ? 2 : 0;
   if (part > 0) text.remove_prefix(1);
-  return true;
+  if (!text.starts_with(of_cycle)) return true;
+  text.remove_prefix(of_cycle.size());
+  return take_number(text, cycle);
+}
+
+/// Whether the last stage is not before the first.
+bool is_in_order(const Stages& s)
+{
+  if (s.last != s.first) return s.last > s.first;
+  const int first_cycle = std::max(s.first_cycle, 1);
+  if (s.last_cycle > 0 && s.last_cycle != first_cycle) return s.last_cycle > first_cycle;
+  return s.last_part == 0 || s.last_part >= s.first_part;
 }
 
 } // namespace
 
 std::vector<double> parts_of(const dem::Table& history)
 {
-  return history.has("part") ? history.column("part", "-")
-                             : std::vector<double>(history.n_rows, 0.0);
+  return values_or_zero(history, "part");
 }
 
 bool is_element_history(const dem::Table& history)
@@ -116,28 +144,28 @@ bool is_triaxial_history(const dem::Table& history)
   return history.has("cell pressure") && history.has(volume_of_middle);
 }
 
-std::string name_of_stage(int number, int part)
+std::string name_of_stage(int number, int part, int cycle)
 {
-  return std::to_string(number) + (part == 1 ? "a" : part == 2 ? "b" : "");
+  const std::string letter = part == 1 ? "a" : part == 2 ? "b" : "";
+  return std::to_string(number) + letter +
+         (cycle > 0 ? " of cycle " + std::to_string(cycle) : "");
 }
 
 Stages stages_of(const std::string& text)
 {
   Stages s;
   std::string_view rest = text;
-  bool is_read = take_stage(rest, s.first, s.first_part);
+  bool is_read = take_stage(rest, s.first, s.first_part, s.first_cycle);
   if (is_read && rest.starts_with('-')) {
     rest.remove_prefix(1);
-    is_read = take_stage(rest, s.last, s.last_part) &&
-              (s.last > s.first ||
-               (s.last == s.first && (s.last_part == 0 || s.last_part >= s.first_part)));
+    is_read = take_stage(rest, s.last, s.last_part, s.last_cycle) && is_in_order(s);
   }
   require(
       is_read && rest.empty(),
       "--stage " + text +
           ": must be the number of a stage, from which on to draw, or the first and the "
           "last of several: 2 or 2-3; 3a and 3b are the unloading and the reloading of "
-          "stage 3.");
+          "stage 3, 3b of cycle 2 is that of its second cycle.");
   return s;
 }
 
@@ -147,19 +175,21 @@ dem::Table from_stages(const dem::Table& history, const Stages& stages)
   const StageColumns columns(history);
   const std::vector<double>& stage = columns.stage;
   const double longest = *std::max_element(stage.begin(), stage.end());
-  const auto require_stage = [&](int number, int part) {
-    require(columns.has(number, part),
-            history.file.string() + ": no record of stage " + name_of_stage(number, part) +
-                (columns.has(number, 0)
+  const auto require_stage = [&](int number, int part, int cycle) {
+    require(columns.has(number, part, cycle),
+            history.file.string() + ": no record of stage " +
+                name_of_stage(number, part, cycle) +
+                (columns.has(number, 0, 0)
                      ? ", but of stage " + std::to_string(number) +
-                           ": a and b are the parts of an unload-reload."
+                           ": a, b and cycles are the parts of an unload-reload."
                      : "; the last is " + std::to_string(std::lround(longest)) + "."));
   };
-  require_stage(stages.first, stages.first_part);
-  if (stages.last_part > 0) require_stage(stages.last, stages.last_part);
+  require_stage(stages.first, stages.first_part, stages.first_cycle);
+  if (stages.last_part > 0 || stages.last_cycle > 0)
+    require_stage(stages.last, stages.last_part, stages.last_cycle);
   // During the approach to its stress a stage counts from another start.
   std::size_t anchor = stage.size() - 1;
-  while (!columns.is(anchor, stages.first, stages.first_part)) --anchor;
+  while (!columns.is(anchor, stages.first, stages.first_part, stages.first_cycle)) --anchor;
   const std::vector<CountedStrain> strains = counted_in(history);
   const auto counts_as_anchor = [&](std::size_t row) {
     return std::all_of(strains.begin(), strains.end(), [&](const CountedStrain& strain) {

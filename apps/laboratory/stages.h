@@ -31,15 +31,18 @@ struct Stages {
   int first = 0; ///< 0: all, with the strains of the whole test
   int last = 0;  ///< 0: to the end of the test
   /// Of an unload-reload: 1 from (or up to) its unloading, 2 its reloading; 0 the whole stage.
-  /// Of one that is repeated from the first such part, up to the last.
   int first_part = 0, last_part = 0;
+  /// Of one that is repeated: in which cycle, from 1; 0 from the first such part, up to the last.
+  int first_cycle = 0, last_cycle = 0;
   bool is_all() const { return first == 0; }
 };
 
-/// "3", or "3a" and "3b" for the parts of an unload-reload.
-std::string name_of_stage(int number, int part);
+/// "3", or "3a" and "3b" for the parts of an unload-reload; "3a of cycle 2".
+/// @param part, cycle 0: none
+std::string name_of_stage(int number, int part, int cycle = 0);
 
-/// "2": from stage 2 on; "2-3": stages 2 and 3; "3a", "3b", "2-3a": the same with parts.
+/// "2": from stage 2 on; "2-3": stages 2 and 3; "3a", "3b", "2-3a": the same with parts;
+/// "3b of cycle 2", "3 of cycle 2-3 of cycle 4": with cycles.
 /// @throws InputError naming the text
 Stages stages_of(const std::string& text);
 

@@ -48,8 +48,9 @@ void name_stages(PlotQuantity& quantity, const Stages& stages)
   const bool is_counted = std::find(counted_strains.begin(), counted_strains.end(),
                                     quantity.name) != counted_strains.end();
   if (is_counted && !stages.is_all())
-    quantity.words +=
-        " from stage " + name_of_stage(stages.first, stages.first_part) + " on";
+    quantity.words += " from stage " +
+                      name_of_stage(stages.first, stages.first_part, stages.first_cycle) +
+                      " on";
 }
 
 bool is_isotropic(const std::vector<Run>& runs)

@@ -67,7 +67,7 @@ std::optional<Options> read_options(int argc, char** argv, int& code)
   app.add_option("--stage", options.stage,
                  "Of element and triaxial runs draw only from this stage on (2), or these "
                  "stages (2-3), as the case numbers them; of an unload-reload 3a is the "
-                 "unloading, 3b the reloading; "
+                 "unloading, 3b the reloading, \"3b of cycle 2\" that of one cycle; "
                  "axial and volumetric strain then count from its start (of a stage that "
                  "resumes: from that "
                  "of the stage resumed)");

@@ -75,6 +75,7 @@ differs element.png sheared --stage 2 --points points.csv
 makes element.png cycles --stage 2b
 differs element.png cycles --stage 2a
 differs element.png cycles --stage 2a-2a
+differs element.png cycles --stage "2a of cycle 2"
 makes triaxial.png cell
 differs triaxial.png cell --stage 2
 differs triaxial.png cell cell --label a --label b

@@ -109,6 +109,18 @@ TEST_CASE("Parts of an unload-reload can be chosen", "[unit][view]")
   CHECK(lines("2a-2a") == Lines{4, 5, 6});
   CHECK(lines("2b-2b") == Lines{5, 6, 7});
   CHECK(lines("1-2a") == Lines{2, 3, 4, 5, 6});
+  CHECK_THROWS_WITH(lines("2b of cycle 2"), Contains("no record of stage 2b of cycle 2"));
+  t.columns.push_back({"cycle", "-", {0, 0, 1, 1, 2, 2, 0, 0}});
+  CHECK(lines("2b of cycle 2") == Lines{7, 8, 9});
+  CHECK(lines("2 of cycle 2-2") == Lines{6, 7});
+  CHECK(lines("2b of cycle 1-2a of cycle 2") == Lines{5, 6});
+  CHECK(lines("2b-2a of cycle 2") == Lines{5, 6});
+  CHECK(lines("1-2a of cycle 1") == Lines{2, 3, 4});
+  CHECK_THROWS_WITH(lines("2a-2a of cycle 3"),
+                    Contains("no record of stage 2a of cycle 3"));
+  for (const char* text : {"2a of cycle 0", "2a of cycle", "2a of cycle 2-2a of cycle 1",
+                           "2b of cycle 1-2a of cycle 1"})
+    CHECK_THROWS_WITH(stages_of(text), Contains("must be the number of a stage"));
   for (const char* text : {"2c", "a", "2b-2a", "2ab", "2-a"})
     CHECK_THROWS_WITH(stages_of(text), Contains("must be the number of a stage"));
   const auto plots = element_plots({{{0, "a"}, t}}, stages_of("2b"));
