@@ -109,7 +109,8 @@ bool begins_as_sealed(const std::filesystem::path& file, std::string_view kind)
   std::ifstream in(file, std::ios::binary);
   std::string start(mark.size(), '\0');
   in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return in.good() && (start == mark || start.starts_with(hdf5));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  return start == mark || start.starts_with(hdf5);
 }
 
 std::string unsealed(const std::filesystem::path& file, const Seal& seal,

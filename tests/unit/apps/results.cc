@@ -133,6 +133,10 @@ TEST_CASE("Series are owed by the jobs that write them, at the end", "[unit][app
         Names{"particles.pvd", "bonds.pvd", "pile.pvd", "far_field.pvd", "fields.pvd",
               "contacts.pvd"});
   CHECK(missing_results(folder.path, "sample", Extent::finished) ==
+        Names{"sample.h5", "particles.pvd", "bonds.pvd"}); // as earlier versions wrote it
+  fs::create_directory(folder.path / "fields");
+  write(folder.path / "fields" / "contacts_0000.vtp", "x");
+  CHECK(missing_results(folder.path, "sample", Extent::finished) ==
         Names{"sample.h5", "particles.pvd", "bonds.pvd", "contacts.pvd"});
   write(folder.path / "particles.pvd", "no series");
   CHECK(missing_results(folder.path, "element", Extent::begun) == Names{"particles.pvd"});
