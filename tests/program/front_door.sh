@@ -31,7 +31,7 @@ grep -Eq 'deal.II [0-9.]+, PETSc [0-9.]+, VTK [0-9.]+, HDF5 [0-9.]+, Eigen [0-9.
 ## repeated stages are one line
 for job in element triaxial pile; do
   for form in --help --template; do
-    "$mergel" $job $form | grep -E '^ +(set )?stage [0-9N]' >stages || fail "no stage: $job $form"
+    "$mergel" $job $form | grep -E '^(  |[ #]+set )stage [0-9N]' >stages || fail "no stage: $job $form"
     [ "$(wc -l <stages)" -eq 1 ] || fail "stages are repeated: $job $form: $(cat stages)"
   done
 done
