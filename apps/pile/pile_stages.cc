@@ -73,7 +73,8 @@ PileStage read_pile_stage(const std::string& text)
 {
   const std::string all(trimmed(text));
   const auto blank = std::min(all.find(' '), all.size());
-  const Form& form = form_named(all.substr(0, blank));
+  const std::string word = all.substr(0, blank);
+  const Form& form = form_named(word);
   std::string rest(trimmed(all.substr(blank)));
   PileStage stage;
   stage.kind = form.kind;
