@@ -7,6 +7,7 @@
 #include "apps/run/ranks.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "dem/io/readable.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -30,16 +31,28 @@ struct CompareOptions {
 };
 
 const std::vector<std::string> files{"tests.csv", "tests.json"};
+/// With which each of them begins, in every version.
+const std::vector<std::string> first_words{"test,kind,", "{\n  \"tests\": ["};
+
+/// Refuse a file that is there, unless mergel compare has written it and it may be replaced.
+void check_place(const fs::path& file, const std::string& first, bool overwrite)
+{
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(file, error))) return;
+  const std::string at = "mergel compare: " + file.string() + ": exists";
+  require(dem::begins_with(file, first),
+          at + ", and mergel compare has not written it. Move it away, or take another "
+               "--output.");
+  require(overwrite, at + ". Take --overwrite to replace it, or another --output.");
+}
 
 /// Nothing is written before all that is wrong has been found.
 void check_output(const CompareOptions& o)
 {
   if (o.output.empty()) return;
   std::error_code error;
-  for (const std::string& name : files)
-    require(o.overwrite || !fs::exists(fs::symlink_status(o.output / name, error)),
-            "mergel compare: " + (o.output / name).string() +
-                ": exists. Take --overwrite to replace it, or another --output.");
+  for (std::size_t k = 0; k < files.size(); ++k)
+    check_place(o.output / files[k], first_words[k], o.overwrite);
   fs::create_directories(o.output, error);
   std::error_code ignored;
   require(fs::is_directory(o.output, ignored),
@@ -89,7 +102,7 @@ void help_compare(std::ostream& out)
   out << "  DIR...         results folders of mergel element and mergel triaxial\n"
          "  --output DIR   folder for tests.csv and tests.json; without it the table is "
          "printed only\n"
-         "  --overwrite    replace these files there\n"
+         "  --overwrite    replace these files there, if mergel compare has written them\n"
          "  --label TEXT   name of a test, once for each DIR in their order; default the "
          "names of the folders\n\n"
          "A row for each test: confining pressure, moduli, yield, peak and the minimum "

@@ -1,12 +1,14 @@
 #include "apps/run/folder_lock.h"
 
 #include "dem/error.h"
+#include "dem/io/readable.h"
 
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -23,6 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const char* const lock_name = ".mergel.lock";
+constexpr std::string_view first_words = "process "; // of what a lock file holds
 constexpr std::chrono::milliseconds pause{100};
 
 [[noreturn]] void refuse(const fs::path& folder, const std::string& holder)
@@ -64,7 +67,7 @@ std::string this_process()
 {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
-  return "process " + std::to_string(::getpid()) + " on " + host.data();
+  return std::string(first_words) + std::to_string(::getpid()) + " on " + host.data();
 }
 
 std::string who(int number)
@@ -131,8 +134,7 @@ FolderLock& FolderLock::operator=(FolderLock&& other) noexcept
 
 bool FolderLock::is_known(const fs::path& folder)
 {
-  std::error_code error;
-  return fs::is_regular_file(folder / lock_name, error);
+  return dem::begins_with(folder / lock_name, first_words);
 }
 
 std::string FolderLock::holder(const fs::path& folder)

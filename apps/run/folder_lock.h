@@ -26,7 +26,8 @@ public:
   /// True also where the file system has no locks.
   bool is_held() const { return !file_.empty(); }
 
-  /// Whether the folder has a lock file: a run writes there, or was killed.
+  /// Whether the folder has a lock file that names a process: a run writes there, or was
+  /// killed. An empty file of this name proves nothing.
   static bool is_known(const std::filesystem::path& folder);
   /// Description of the run that holds the folder; "" when none does. Creates no file.
   static std::string holder(const std::filesystem::path& folder);

@@ -12,7 +12,6 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <fstream>
 #include <limits>
 #include <regex>
 #include <string>
@@ -133,20 +132,12 @@ fs::path final_name(const fs::path& name)
   return dem::temporary_name(text) == name ? fs::path(text) : name;
 }
 
-/// Whether the file begins with these bytes.
-bool begins_with(const fs::path& file, std::string_view bytes)
-{
-  std::ifstream in(file, std::ios::binary);
-  std::string start(bytes.size(), '\0');
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return in.good() && start == bytes;
-}
-
 } // namespace
 
 bool holds_run(const fs::path& folder)
 {
-  if (begins_with(folder / "resolved.prm", CaseFile::first_words_of_resolved)) return true;
+  if (dem::begins_with(folder / "resolved.prm", CaseFile::first_words_of_resolved))
+    return true;
   std::error_code error; // a folder that cannot be read holds no run
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {

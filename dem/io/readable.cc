@@ -3,6 +3,7 @@
 #include "dem/error.h"
 
 #include <cerrno>
+#include <fstream>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -80,6 +81,14 @@ void require_folder(const std::filesystem::path& folder)
   if (error == std::errc::not_a_directory || error == std::errc::no_such_file_or_directory)
     throw InputError(folder.string() + ": is no folder.");
   if (error) refuse(folder, error);
+}
+
+bool begins_with(const std::filesystem::path& file, std::string_view bytes)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::string start(bytes.size(), '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return in.good() && start == bytes;
 }
 
 } // namespace mergel::dem

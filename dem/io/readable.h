@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace mergel::dem {
@@ -30,5 +31,8 @@ void require_readable(const std::filesystem::path& file);
 
 /// @throws InputError "FOLDER: is no folder" or "FOLDER: cannot be read: ..."
 void require_folder(const std::filesystem::path& folder);
+
+/// Whether the file begins with these bytes; false where it cannot be read.
+bool begins_with(const std::filesystem::path& file, std::string_view bytes);
 
 } // namespace mergel::dem

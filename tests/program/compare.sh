@@ -92,10 +92,20 @@ mkdir pile; printf 'time [s],depth/D_p [-],q_c [Pa],bonds broken [-]\n0,0,0,0\n1
 refused 'is the history of no element, triaxial or Brazilian test' exact_1 pile
 [ "$(code_of "$mergel" compare)" -eq 1 ] || fail "no folder: $(cat log)"
 
-# Files that are there are replaced on demand only.
-echo mine >exact/tests.csv
+# Files that are there are replaced on demand only, and those of the user never.
+cp exact/tests.csv before
 [ "$(code_of "$mergel" compare exact_1 exact_2 --output exact)" -eq 1 ] && grep -q 'exact/tests.csv: exists. Take --overwrite' log || fail "$(cat log)"
-[ "$(cat exact/tests.csv)" = mine ] || fail "a file of the user was replaced"
-"$mergel" compare exact_1 exact_2 --output exact --overwrite >log 2>&1 && grep -q '^test,kind' exact/tests.csv || fail "$(cat log)"
+cmp -s before exact/tests.csv || fail "tests.csv was replaced without --overwrite"
+"$mergel" compare exact_1 exact_2 --output exact --overwrite >log 2>&1 || fail "$(cat log)"
+[ "$(wc -l <exact/tests.csv)" -eq 3 ] || fail "tests.csv was not replaced: $(cat exact/tests.csv)"
+for name in tests.csv tests.json; do
+  for option in "" --overwrite; do
+    rm -rf own && mkdir own && echo mine >"own/$name"
+    # shellcheck disable=SC2086
+    [ "$(code_of "$mergel" compare exact_1 exact_2 --output own $option)" -eq 1 ] &&
+      grep -q "own/$name: exists, and mergel compare has not written it" log || fail "a user's $name, $option: $(cat log)"
+    [ "$(cat "own/$name")" = mine ] && [ "$(ls own)" = "$name" ] || fail "a user's $name, $option: own was changed"
+  done
+done
 
 echo "compare: all checks hold"

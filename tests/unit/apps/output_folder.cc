@@ -227,6 +227,19 @@ TEST_CASE("A run is known by its case, its checkpoints, what it could not rename
   }
 }
 
+TEST_CASE("A lock file that names no process makes a folder none of mergel", "[unit][apps]")
+{
+  for (const char* text : {"", "mine"}) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path / ".mergel.lock") << text;
+    create_file(folder.path / "history.csv");
+    const auto before = tree(folder.path);
+    CHECK_THAT(refusal(folder.path, Earlier::overwrite),
+               Contains("holds history.csv, and no run of mergel that has written it"));
+    CHECK(tree(folder.path) == before);
+  }
+}
+
 TEST_CASE("--overwrite removes links, never what they point to", "[unit][apps]")
 {
   const TemporaryFolder folder;
