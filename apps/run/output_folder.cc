@@ -4,6 +4,7 @@
 #include "apps/case/words.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "dem/io/picture_of_view.h"
 #include "dem/io/readable.h"
 #include "dem/io/seal.h"
 #include "dem/io/state/checkpoint.h"
@@ -234,6 +235,12 @@ void OutputFolder::check(const std::vector<fs::path>& inputs, bool is_of_run) co
                         earlier.front().lexically_relative(folder_).string() +
                         "). Choose another folder with --output, or replace that run with "
                         "--overwrite.");
+  for (const fs::path& old : earlier)
+    if (old.extension() == ".png" && final_name(old.filename()) == old.filename() &&
+        !dem::is_picture_of_view(old))
+      refuse(folder_, "holds " + old.filename().string() +
+                          ", which this version of mergel-view has not made. Move it away, "
+                          "or choose another folder with --output.");
   for (const fs::path& old : earlier)
     for (const fs::path& input : inputs) {
       if (input.empty()) continue;

@@ -49,8 +49,9 @@ public:
   /// @param inputs files that the run reads later: they must not be among those that
   ///               commit() removes
   /// @throws InputError when its name is taken by a file, it cannot be created or written,
-  ///   it holds an earlier run that may not be removed (see Earlier) or files of these names
-  ///   that no run has left, another run is writing there, or an input would be removed
+  ///   it holds an earlier run that may not be removed (see Earlier), files of these names
+  ///   that no run has left, or beside a run a .png that mergel-view has not made, another
+  ///   run is writing there, or an input would be removed
   void check(const std::vector<std::filesystem::path>& inputs = {}) const;
 
   /// check() again, create the folder, lock it while this object lives, and remove the

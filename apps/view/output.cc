@@ -2,6 +2,7 @@
 
 #include "apps/laboratory/test_reading.h"
 #include "dem/error.h"
+#include "dem/io/picture_of_view.h"
 #include "dem/io/readable.h"
 
 #include <cerrno>
@@ -30,16 +31,15 @@ fs::path picture_folder(const Options& options)
   return folder;
 }
 
-void save(const Options& options, Page& page, const fs::path& png)
+void save(Page& page, const fs::path& png)
 {
   std::error_code error;
-  const bool is_earlier =
-      !options.output.empty() && fs::exists(fs::symlink_status(png, error));
+  const bool is_earlier = fs::exists(fs::symlink_status(png, error));
   if (const auto unread = is_earlier ? dem::reading_error(png) : std::error_code())
     throw InputError(
         png.string() + ": exists, and mergel-view cannot read whether it has made it: " +
         unread.message() + ". Move it away, or choose another folder with --output.");
-  require(!is_earlier || is_picture_of_view(png),
+  require(!is_earlier || dem::is_picture_of_view(png),
           png.string() +
               ": exists, and this version of mergel-view has not made it. Move it "
               "away, or choose another folder with --output.");

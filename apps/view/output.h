@@ -13,9 +13,9 @@ namespace mergel::apps {
 /// The folder of the pictures; made if it does not exist.
 std::filesystem::path picture_folder(const Options& options);
 
-/// A picture replaces an earlier one, and in the folder of its run what has its name there.
+/// A picture replaces an earlier one.
 /// @throws InputError when it would replace another file
-void save(const Options& options, Page& page, const std::filesystem::path& png);
+void save(Page& page, const std::filesystem::path& png);
 
 /// The names of runs that are drawn over each other.
 std::vector<RunName> run_names(const Options& options);

@@ -4,12 +4,12 @@
 #include "apps/view/round_off.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "dem/io/picture_of_view.h"
 #include "dem/notation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <string>
 
 #include <vtkActor2D.h>
@@ -30,12 +30,11 @@ namespace mergel::apps {
 namespace {
 
 constexpr int oversampling = 2;
-constexpr char software[] = "mergel-view"; // in the head of every picture
-constexpr double dots_per_inch = 300.0;    // 1600 pixels are 13.5 cm
-constexpr double text_units = 27.0;        // height of ordinary text
-constexpr double tick_units = 8.0;         // length of a tick
-constexpr double frame_units = 1.8;        // width of frames and ticks
-constexpr double number_units = 15.0;      // from the frame to the numbers
+constexpr double dots_per_inch = 300.0; // 1600 pixels are 13.5 cm
+constexpr double text_units = 27.0;     // height of ordinary text
+constexpr double tick_units = 8.0;      // length of a tick
+constexpr double frame_units = 1.8;     // width of frames and ticks
+constexpr double number_units = 15.0;   // from the frame to the numbers
 
 /// Filled convex polygons of one colour.
 class Shapes {
@@ -222,7 +221,7 @@ void Page::save(const std::filesystem::path& png)
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputConnection(average->GetOutputPort());
   writer->WriteToMemoryOn();
-  writer->AddText("Software", software);
+  writer->AddText("Software", dem::software_of_pictures);
   writer->Write();
   vtkUnsignedCharArray* result = writer->GetResult();
   if (result == nullptr || result->GetNumberOfValues() == 0)
@@ -230,15 +229,6 @@ void Page::save(const std::filesystem::path& png)
   const std::string bytes(reinterpret_cast<const char*>(result->GetPointer(0)),
                           static_cast<std::size_t>(result->GetNumberOfValues()));
   dem::replace_file(png, with_resolution(bytes, dots_per_inch));
-}
-
-bool is_picture_of_view(const std::filesystem::path& png)
-{
-  std::ifstream in(png, std::ios::binary);
-  std::string head(4096, '\0');
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  return head.find(software) != std::string::npos;
 }
 
 double Axis::at(double start, double length, double value) const

@@ -78,9 +78,6 @@ private:
   vtkNew<vtkRenderer> paper_, overlay_;
 };
 
-/// Whether a file is a picture that Page::save() wrote.
-bool is_picture_of_view(const std::filesystem::path& png);
-
 /// One axis of a panel; `from` may be above `to` (a depth that grows downwards). A
 /// logarithmic one has 0 < from < to.
 struct Axis {

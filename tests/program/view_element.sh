@@ -123,6 +123,11 @@ echo mine >out/element.png
 code=0; "$view" --output out sheared >log 2>&1 || code=$?
 [ $code -eq 1 ] && grep -q 'out/element.png: exists, and this version of mergel-view has not made it' log &&
   [ "$(cat out/element.png)" = mine ] || fail "a picture of the user: $code $(cat log)"
+echo mine >sheared/element.png # in the folder of its run too
+code=0; "$view" sheared >log 2>&1 || code=$?
+[ $code -eq 1 ] && grep -q 'sheared/element.png: exists, and this version of mergel-view has not made it' log &&
+  [ "$(cat sheared/element.png)" = mine ] || fail "a picture of the user beside its run: $code $(cat log)"
+rm sheared/element.png
 
 # What the permissions forbid is neither absent nor a full disk. They do not bind root, without these rights.
 bound() {

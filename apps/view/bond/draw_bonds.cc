@@ -23,7 +23,7 @@ void draw_bonds(const Options& options, const std::vector<dem::Table>& histories
 
   Page loads(options.size.width, options.size.height);
   draw_bond_loads(loads, runs);
-  save(options, loads, output / "loads.png");
+  save(loads, output / "loads.png");
 
   std::copy_if(runs.begin(), runs.end(), std::back_inserter(with_surface),
                [](const BondRun& run) { return run.has_surface; });
@@ -37,7 +37,7 @@ void draw_bonds(const Options& options, const std::vector<dem::Table>& histories
       options.has_size ? options.size.height : std::max(options.size.height, 600 * n_rows);
   Page surface(options.size.width, height);
   draw_bond_surface(surface, with_surface);
-  save(options, surface, output / "surface.png");
+  save(surface, output / "surface.png");
 }
 
 } // namespace mergel::apps

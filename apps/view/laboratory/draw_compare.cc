@@ -96,7 +96,7 @@ void draw_compare(const Options& options, const std::vector<dem::Table>& histori
     draw_plot(page, places.boxes[k], plot);
   }
   draw_key(page, places.key, entries);
-  save(options, page, output / "compare.png");
+  save(page, output / "compare.png");
 }
 
 } // namespace mergel::apps

@@ -53,7 +53,7 @@ void draw_laboratory(const Options& options)
   if (n > 0) {
     Page page = page_for(options, n);
     draw_mohr(page, *series);
-    save(options, page, output / "mohr.png");
+    save(page, output / "mohr.png");
   }
   for (const auto& [fit, what] :
        {std::pair{&series->peak, "mohr.png at the peak"},
@@ -67,7 +67,7 @@ void draw_laboratory(const Options& options)
   if (critical.line) {
     Page page = page_for(options, 2);
     draw_critical_states(page, *series);
-    save(options, page, output / "critical_state.png");
+    save(page, output / "critical_state.png");
   } else {
     std::cout << "no critical_state.png: " << critical.of.why_not << '\n';
   }
@@ -75,7 +75,7 @@ void draw_laboratory(const Options& options)
   if (const std::string lacks = lacks_of_yield(*series); lacks.empty()) {
     Page page = page_for(options, 1);
     draw_yield(page, *series);
-    save(options, page, output / "yield.png");
+    save(page, output / "yield.png");
   } else {
     std::cout << "no yield.png: " << lacks << '\n';
   }

@@ -51,7 +51,7 @@ void draw_bands(const Options& options, const SpecimenFrame& frame)
   }
   Page page(options.size.width, options.size.height);
   draw_localisation(page, frame, bands, *row);
-  save(options, page, picture_folder(options) / "localisation.png");
+  save(page, picture_folder(options) / "localisation.png");
 }
 
 } // namespace
@@ -66,7 +66,7 @@ void draw_panels(const Options& options, const std::vector<RunPlot>& plots,
   const fs::path output = picture_folder(options);
   Page page(options.size.width, options.size.height);
   draw_runs(page, plots, runs, points);
-  save(options, page, output / name);
+  save(page, output / name);
 }
 
 void require_numbers_of_case(const fs::path& folder, const dem::Table& history)
@@ -112,7 +112,7 @@ void draw_triaxial(const Options& options, const Stages& stages,
   if (has_pictures) {
     Page page(options.size.width, options.size.height);
     draw_specimen(page, frame, histories.front());
-    save(options, page, picture_folder(options) / "specimen.png");
+    save(page, picture_folder(options) / "specimen.png");
     draw_bands(options, frame);
   } else if (is_one) {
     std::cout << "no specimen.png: the folder holds no particles.pvd\n";
@@ -133,7 +133,7 @@ void draw_brazilian(const Options& options, const std::vector<dem::Table>& histo
   if (has_pictures) {
     Page page(options.size.width, options.size.height);
     draw_disc(page, frame, histories.front());
-    save(options, page, picture_folder(options) / "disc.png");
+    save(page, picture_folder(options) / "disc.png");
   } else if (is_one) {
     std::cout << "no disc.png: the folder holds no particles.pvd\n";
   }

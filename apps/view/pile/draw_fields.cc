@@ -234,7 +234,7 @@ void draw_fields(const Options& options, const std::filesystem::path& output,
     const PictureSize size = size_of(options, n_panels);
     Page page(size.width, size.height);
     draw_on(page);
-    save(options, page, output / name);
+    save(page, output / name);
   };
   vtkImageData* fields = continuum.section;
   draw("stress.png", 4, [&](Page& page) { draw_stress(page, frame, fields, caption); });

@@ -59,7 +59,7 @@ void draw_pile_load(const Options& options, const dem::Table& history)
   const fs::path output = picture_folder(options);
   Page chart(options.size.width, options.size.height);
   draw_load(chart, history, measured);
-  save(options, chart, output / "load.png");
+  save(chart, output / "load.png");
 }
 
 void draw_pile(const Options& options, const dem::Table& history)
@@ -76,7 +76,7 @@ void draw_pile(const Options& options, const dem::Table& history)
     picture.caption = caption(history, frame.time);
     Page page(options.size.width, options.size.height);
     draw_assembly(page, frame, picture);
-    save(options, page, output / name);
+    save(page, output / name);
   };
 
   draw_pile_load(options, history);

@@ -214,7 +214,7 @@ void draw_profiles(const Options& options, const fs::path& output, double time,
   if (shaft && !Profile(*shaft, time).is_empty()) {
     Page page(options.size.width, options.has_size ? options.size.height : 900);
     draw_shaft(page, Profile(*shaft, time), caption);
-    save(options, page, output / "shaft.png");
+    save(page, output / "shaft.png");
   } else {
     std::cout << "no shaft.png: no ring of the shaft is whole below the surface\n";
   }
@@ -224,7 +224,7 @@ void draw_profiles(const Options& options, const fs::path& output, double time,
       !paths.empty()) {
     Page page(options.size.width, options.has_size ? options.size.height : 900);
     draw_paths(page, paths, caption);
-    save(options, page, output / "paths.png");
+    save(page, output / "paths.png");
   } else {
     std::cout << "no paths.png: the tip has not moved past a point of stress_path.csv\n";
   }
@@ -235,7 +235,7 @@ void draw_profiles(const Options& options, const fs::path& output, double time,
   Page page(options.size.width, options.size.height);
   draw_rock(page, Profile(*tip, time), Profile(*radial, time, place, 2.0),
             Profile(*radial, time, place, 1.0), caption);
-  save(options, page, output / "profiles.png");
+  save(page, output / "profiles.png");
 }
 
 } // namespace mergel::apps

@@ -4,6 +4,7 @@
 #include "apps/run/restart.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "dem/io/picture_of_view.h"
 #include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
 
@@ -28,6 +29,15 @@ void create_file(const fs::path& file)
 {
   fs::create_directories(file.parent_path());
   std::ofstream(file) << "x";
+}
+
+/// A picture as mergel-view begins it.
+void create_picture(const fs::path& file)
+{
+  fs::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary)
+      << "\x89PNG\r\n\x1a\n"
+      << std::string("Software\0", 9) << dem::software_of_pictures;
 }
 
 /// What marks the folder of a run.
@@ -155,7 +165,11 @@ TEST_CASE("--overwrite removes what mergel wrote and nothing else", "[unit][apps
       "partial.csv",        "pile.log",       "more/history.csv",
       ".notes.partial.txt", "my_view.pvd",    "fields/notes.txt"};
   for (const auto& names : {own, others})
-    for (const std::string& name : names) create_file(results / name);
+    for (const std::string& name : names)
+      if (name.ends_with(".png"))
+        create_picture(results / name);
+      else
+        create_file(results / name);
   create_case(results);
   create_file(folder.path / "precious" / "data");
   fs::create_symlink(folder.path / "precious", results / "link");
@@ -222,6 +236,28 @@ TEST_CASE("A run is known by its case, its checkpoints, what it could not rename
     std::ofstream(folder.path / mark, std::ios::binary) << text;
     create_file(folder.path / "history.csv");
     CHECK_THAT(refusal(folder.path, Earlier::keep), Contains("holds an earlier run ("));
+    OutputFolder(folder.path, Earlier::overwrite).commit();
+    CHECK(tree(folder.path).empty());
+  }
+}
+
+TEST_CASE("--overwrite refuses a picture that mergel-view has not made, beside a run too",
+          "[unit][apps]")
+{
+  const std::string signature = "\x89PNG\r\n\x1a\n";
+  for (const std::string& text : {std::string("mine, of mergel-view"), signature,
+                                  signature + "Software another program", std::string()}) {
+    const TemporaryFolder folder;
+    create_case(folder.path);
+    create_picture(folder.path / "curve.png");
+    std::ofstream(folder.path / "element.png", std::ios::binary) << text;
+    const auto before = tree(folder.path);
+    CHECK(refusal(folder.path, Earlier::overwrite) ==
+          "output folder " + folder.path.string() +
+              ": holds element.png, which this version of mergel-view has not made. Move "
+              "it away, or choose another folder with --output.");
+    CHECK(tree(folder.path) == before);
+    create_picture(folder.path / "element.png");
     OutputFolder(folder.path, Earlier::overwrite).commit();
     CHECK(tree(folder.path).empty());
   }
