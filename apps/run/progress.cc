@@ -67,6 +67,8 @@ void Progress::update(double fraction, const std::function<std::string()>& detai
   const double now = output_.clock();
   if (now - shown_ < (output_.is_terminal ? terminal_interval : file_interval)) return;
   shown_ = now;
+  // What a growing pressure loosens again, or another rank has not reached, is no progress.
+  fraction = std::max(fraction, measured_fraction_);
 
   const double elapsed = now - start_, interval = now - measured_;
   const double window = std::max(10.0, 0.1 * elapsed);
@@ -107,9 +109,7 @@ void Progress::done(const std::string& detail)
 {
   const std::string line = phase_ + "  done  " + (detail.empty() ? "" : detail + "  ") +
                            "in " + duration_text(output_.clock() - start_);
-  show(line);
-  if (output_.is_terminal) *output_.out << std::endl;
-  line_length_ = 0;
+  say(line + "\n"); // nothing overwrites it: it may wrap
 }
 
 void Progress::show(const std::string& line)

@@ -39,7 +39,8 @@ public:
   Progress& operator=(const Progress&) = delete;
 
   /// May be called every step.
-  /// @param fraction part of the phase that is done, 0 to 1
+  /// @param fraction part of the phase that is done, 0 to 1; the line never says less than
+  ///   it did before
   /// @param detail   text between fraction and time left; called only when a line is
   ///   printed
   void update(double fraction, const std::function<std::string()>& detail);
@@ -49,7 +50,7 @@ public:
   void say(const std::string& lines);
 
   /// Report the end of the phase: "penetration  done  <detail>  in 3 min
-  /// 2 s". Call it once.
+  /// 2 s", whole however wide the terminal is. Call it once.
   void done(const std::string& detail = "");
 
 private:

@@ -78,18 +78,36 @@ TEST_CASE("On a terminal one line is rewritten at most five times a second", "[u
   CHECK(screen.taken_text() == line);
 
   screen.now = 130.0;
-  progress.done("q_c 12.4 MPa"); // shorter: the rest of the old line is cleared
-  const std::string last = "\rdriving  done  q_c 12.4 MPa  in 30 s";
-  CHECK(screen.taken_text() == last + std::string(line.size() - last.size(), ' ') + "\n");
+  progress.done("q_c 12.4 MPa"); // the old line is cleared first
+  CHECK(screen.taken_text() == "\r" + std::string(line.size() - 1, ' ') +
+                                   "\rdriving  done  q_c 12.4 MPa  in 30 s\n");
 }
 
-TEST_CASE("A line longer than the terminal is cut", "[unit][apps]")
+TEST_CASE("A line longer than the terminal is cut, the last one of a phase is not",
+          "[unit][apps]")
 {
   Screen screen(true);
   Progress progress("driving", screen.output());
   screen.now += 1.0;
   progress.update(0.5, std::string(200, 'x'));
   CHECK(screen.taken_text().size() == 1 + 79);
+  progress.done(std::string(200, 'x'));
+  CHECK_THAT(screen.taken_text(),
+             EndsWith("\rdriving  done  " + std::string(200, 'x') + "  in 1 s\n"));
+}
+
+TEST_CASE("A share that falls is shown as the largest until then", "[unit][apps]")
+{
+  Screen screen(true);
+  Progress progress("specimen", screen.output());
+  for (const double fraction : {0.09, 0.0, 0.05}) {
+    screen.now += 0.5;
+    progress.update(fraction);
+    CHECK(screen.taken_text() == "\rspecimen    9.0 %");
+  }
+  screen.now += 0.25;
+  progress.update(0.2);
+  CHECK(screen.taken_text() == "\rspecimen   20.0 %");
 }
 
 TEST_CASE("Without a terminal a plain line is written every ten seconds", "[unit][apps]")
