@@ -201,8 +201,9 @@ void PileProfiles::add_paths(const ProfileFrame& frame, const dem::SectionSums& 
   for (int k = 1; k * D_ <= deepest_; ++k)
     for (const double r : {half, R_ + half, D_ + half}) {
       const double z = -k * D_;
+      if (sums.is_in_pile(r, z)) continue;
       const auto rock = rock_in(sums.between(r - half, r + half, z - half, z + half));
-      if (!rock) continue; // the pile is there
+      if (!rock) continue;
       path_.add({frame.time, frame.depth / D_, static_cast<double>(k), r / R_,
                  (z - frame.z_tip) / D_, rock->damage, rock->porosity, rock->void_ratio(),
                  -rock->stress(0, 0), -rock->stress(1, 1), -rock->stress(2, 2), rock->p(),
@@ -232,9 +233,10 @@ void PileProfiles::find_states(const ProfileFrame& frame, const dem::SectionSums
     for (int column = 0; column < grid.n_columns(); ++column) {
       const double r = std::abs(grid.r_middle(column)), z = grid.z_middle(row);
       if (z > -D_ || r > farthest * D_) continue;
-      const auto window = rock_in(sums.window(column, row, PileContinuum::reach));
-      if (!window) continue;
-      if (const double tension = -window->principal().minor;
+      if (!sums.has_value(column, row, PileContinuum::reach)) continue;
+      const dem::SectionSum window = sums.window(column, row, PileContinuum::reach);
+      if (2.0 * window.largest_R > w) continue; // forces of single particles, no stress
+      if (const double tension = -dem::SectionSums::average(window).principal().minor;
           tension > found_.tension.stress)
         found_.tension = {tension, r, z - z_tip};
     }
@@ -283,7 +285,7 @@ void PileProfiles::add_radial(const ProfileFrame& frame, const dem::SectionSums&
     std::vector<std::pair<double, double>> damage; // over r
     for (int column = grid.n_r; column < grid.n_columns(); ++column) {
       const double r = grid.r_middle(column), half = 0.5 * grid.h;
-      if (r + half <= r_from || r > farthest * D_) continue;
+      if (r < r_from || r > farthest * D_) continue;
       const auto rock = rock_in(sums.between(r - half, r + half, z_from, z_to));
       if (!rock) continue;
       damage.emplace_back(r, rock->damage);

@@ -30,8 +30,9 @@ struct RockState {
   bool is_there() const { return void_ratio > 0.0; }
 };
 
-/// The largest tensile principal stress of all windows that lie more than a diameter below the
-/// surface and within four of the axis.
+/// The largest tensile principal stress of all windows outside the pile that lie more than a
+/// diameter below the surface and within four of the axis. A window that is narrower than a
+/// particle in it is left out.
 struct Tension {
   double stress = 0.0;          ///< [Pa]; 0: all is compressed
   double r = 0.0, height = 0.0; ///< from the axis, above the tip [m]

@@ -1,5 +1,7 @@
 #include "dem/continuum/section_sums.h"
 
+#include "dem/walls/wall_readings.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -18,6 +20,7 @@ SectionSum& SectionSum::operator+=(const SectionSum& b)
   coordination += b.coordination;
   volumetric += b.volumetric;
   shear += b.shear;
+  largest_R = std::max(largest_R, b.largest_R);
   return *this;
 }
 
@@ -97,6 +100,8 @@ SectionSums::SectionSums(const SectionGrid& grid, const Particles& p,
 {
   const Revolution* shape = pile ? std::get_if<Revolution>(&pile->shape) : nullptr;
   const Vec3 x = pile ? pile->x : Vec3::Zero();
+  if (shape) pile_ = *shape;
+  z_pile_ = x.z();
   for (int row = 0; row < grid.n_z; ++row)
     for (int column = 0; column < grid.n_columns(); ++column)
       cells_[grid.index(column, row)].volume = grid.volume(column, row, shape, x);
@@ -153,7 +158,13 @@ void SectionSums::add(const ParticleState& b, Index i, const ParticleValues& val
     cell.coordination += v * values.coordination[i];
     cell.volumetric += v * values.volumetric[i];
     cell.shear += v * values.shear[i];
+    cell.largest_R = std::max(cell.largest_R, b.R);
   }
+}
+
+bool SectionSums::is_in_pile(double r, double z) const
+{
+  return pile_ && std::abs(r) < radius_at(*pile_, z - z_pile_);
 }
 
 SectionSum SectionSums::window(int column, int row, int reach) const

@@ -8,6 +8,7 @@
 #include "dem/continuum/loaded_branches.h"
 #include "dem/continuum/section_grid.h"
 
+#include <optional>
 #include <vector>
 
 namespace mergel::dem {
@@ -27,6 +28,7 @@ struct SectionSum {
   Mat3 virial = Mat3::Zero(); ///< F (x) r in the axes of the section [J]
   Vec3 displacement = Vec3::Zero(), increment = Vec3::Zero(); ///< times solid volume
   double damage = 0.0, coordination = 0.0, volumetric = 0.0, shear = 0.0; ///< the same
+  double largest_R = 0.0; ///< of the spheres that reach in [m]
 
   SectionSum& operator+=(const SectionSum& b);
 };
@@ -78,6 +80,17 @@ public:
   /// sides; to the right is outwards on both.
   SectionSum between(double r_from, double r_to, double z_from, double z_to) const;
 
+  /// Whether the point at this distance from the axis, on either side, and height lies in the
+  /// pile [m].
+  bool is_in_pile(double r, double z) const;
+  /// Whether the middle of the cell lies outside the pile, and the window around it is filled. A
+  /// window around a point of the pile may reach out of it by a sliver: a force over hardly any
+  /// volume.
+  bool has_value(int column, int row, int reach) const
+  {
+    return !is_in_pile(grid_.r_middle(column), grid_.z_middle(row)) &&
+           is_filled(window(column, row, reach));
+  }
   /// Whether there is rock in the window.
   static bool is_filled(const SectionSum& sum)
   {
@@ -91,6 +104,8 @@ private:
   void add(const ParticleState& b, Index i, const ParticleValues& values);
 
   SectionGrid grid_;
+  std::optional<Revolution> pile_;
+  double z_pile_ = 0.0; ///< of its lowest point [m]
   std::vector<SectionSum> cells_;
 };
 

@@ -80,13 +80,11 @@ void write_section(const std::filesystem::path& file, const SectionSums& sums, i
   const SectionGrid& grid = sums.grid();
   SectionFields fields;
   for (int row = 0; row < grid.n_z; ++row)
-    for (int column = 0; column < grid.n_columns(); ++column) {
-      const SectionSum window = sums.window(column, row, reach);
-      if (SectionSums::is_filled(window))
-        fields.add(SectionSums::average(window));
+    for (int column = 0; column < grid.n_columns(); ++column)
+      if (sums.has_value(column, row, reach))
+        fields.add(SectionSums::average(sums.window(column, row, reach)));
       else
         fields.add_nothing();
-    }
   PointGrid points;
   points.origin = {grid.r_middle(0), 0.0, grid.z_middle(0)};
   points.h = grid.h;

@@ -227,6 +227,33 @@ TEST_CASE("What the pile takes of a section is missing from its cells", "[unit][
   CHECK(radius_at(pile, 9.0) == 2.0);
 }
 
+// A crust of particles around the shaft. The window around a point of the pile, 0.25 from the
+// surface, reaches out of it and is full there.
+TEST_CASE("A point inside the pile has no value, whatever its window reaches",
+          "[unit][dem]")
+{
+  Particles p;
+  for (int k = 0; k < 8; ++k)
+    for (const double angle : {0.2, 0.6, 1.0, 1.4})
+      p.add(sphere({2.5 * std::cos(angle), 2.5 * std::sin(angle), -0.5 - k}, 0.5));
+  const SectionGrid grid = make_section_grid(8.0, 12.0, 0.1, 0.5);
+  const RigidWall pile = make_rigid_wall(cone_ended(2.0, 3.0), Vec3(0.0, 0.0, -8.0),
+                                         contact(E, 1.0, 0.0, 0.0));
+  const SectionSums sums(grid, p, {}, at_rest(p.size()), &pile);
+  const int row = grid.n_z - 8;                            // around z = -3.25
+  const int inside = grid.n_r + 3, outside = grid.n_r + 4; // r = 1.75 and 2.25
+  REQUIRE(SectionSums::is_filled(sums.window(inside, row, 1)));
+  CHECK(!sums.has_value(inside, row, 1));
+  CHECK(sums.has_value(outside, row, 1));
+  CHECK(sums.window(outside, row, 1).largest_R == 0.5);
+  CHECK(sums.is_in_pile(-1.9, -4.0));
+  CHECK(!sums.is_in_pile(1.0, -6.6)); // beside the cone, whose radius there is 0.93
+  CHECK(sums.is_in_pile(0.9, -6.6));
+  CHECK(!sums.is_in_pile(0.0, -8.1));
+  const SectionSums no_pile(grid, p, {}, at_rest(p.size()), nullptr);
+  CHECK(!no_pile.is_in_pile(0.0, -1.0));
+}
+
 TEST_CASE("Left of the axis the section has the signs of x", "[unit][dem]")
 {
   const SectionGrid grid = make_section_grid(4.0, 4.0, 0.1, 1.0);
