@@ -93,6 +93,14 @@ void remark_on_specimen(Remarks& remarks, const SpecimenKeys& k)
                   "`Specimen/porosity` or raise `Contact/activation gap`");
 }
 
+void remark_on_granular(Remarks& remarks, const SpecimenKeys& k)
+{
+  if (k.is_granular() && !k.specimen.free_rotation)
+    remarks.push_back("Motion/free rotation = false; usual without bonds is true: particles "
+                      "that do not spin reach friction angles beyond 45 degrees, round "
+                      "ones that spin some 20");
+}
+
 void remark_on_materials(Remarks& remarks, const BondKeys& bond, const ContactKeys& contact)
 {
   const dem::BondLaw law = bond.chosen();

@@ -33,6 +33,9 @@ double smallest_d_50(const SpecimenKeys& k);
 /// Porosity, coordination, particles across the region.
 void remark_on_specimen(Remarks& remarks, const SpecimenKeys& k);
 
+/// The rotation constraint of particles without bonds (dem/README.md, Motion).
+void remark_on_granular(Remarks& remarks, const SpecimenKeys& k);
+
 /// Moduli against each other and against the strengths of the bonds.
 void remark_on_materials(Remarks& remarks, const BondKeys& bond,
                          const ContactKeys& contact);

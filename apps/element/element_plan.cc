@@ -37,6 +37,7 @@ Remarks unusual(const ElementCase& c)
   expect_at_most(remarks, "Loading/inertial number", c.inertial_number, quasi_static,
                  "the test is not quasi-static");
   remark_on_specimen(remarks, c.specimen);
+  remark_on_granular(remarks, c.specimen);
   if (!c.specimen.is_granular()) remark_on_materials(remarks, c.bond, c.contact);
   return remarks;
 }

@@ -51,6 +51,12 @@ element() { bounded "$mergel" element "$root/apps/cases/element_small.prm" "${ce
 element --set "Loading/stage 1=isotropic to p = 0.5 MPa" --set "Loading/stage 3=" --set "Loading/stage 4=" --output e >e.log 2>&1 ||
   fail "element: $(tail -5 e.log)"
 grep -q 'granular, without bonds: section Bond has no effect' e.log || fail "what has no effect is not said: $(cat e.log)"
+# Particles that may not spin are twice as strong: that is said, by the job and by check, and only then.
+grep -q '^unusual: Motion/free rotation = false; usual without bonds is true' e.log || fail "the rotation constraint is not said: $(cat e.log)"
+for spins in false true; do
+  "$mergel" check "$sand" --set "Motion/free rotation=$spins" >log 2>&1 || fail "check: $(cat log)"
+  [ "$(grep -c 'unusual: Motion/free rotation' log)" -eq "$([ $spins = false ] && echo 1 || echo 0)" ] || fail "free rotation = $spins: $(cat log)"
+done
 [ "$(grep -c '"outcome": "target reached"' e/summary.json)" -eq 2 ] || fail "two stages: $(cat e.log)"
 # It begins under the pressure of its packing, which is said: that of the first record.
 within e "p at the start [Pa]" 80e3 120e3
