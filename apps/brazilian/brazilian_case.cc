@@ -81,7 +81,13 @@ void complete(CaseFile& file, BrazilianCase& c)
   complete(file, c.specimen, c.material.contact);
   if (c.specimen.upscaling != SpecimenKeys::Upscaling::uniform)
     file.refuse("Specimen", "upscaling", "a Brazilian test takes `uniform`");
-  if (!c.specimen.is_granular()) refuse_impossible(file, c.bond, c.contact);
+  if (c.specimen.is_granular())
+    file.refuse(
+        "Specimen", "coordination",
+        "a disc without bonds falls apart between its plates. Particles without bonds "
+        "are for element and triaxial tests");
+  refuse_impossible(file, c.bond, c.contact);
+  refuse_kept_pressure(file, c.specimen, c.bond);
   complete(file, c.checkpoints);
   if (!(c.record_every < c.strain_limit))
     file.refuse("Output", "record every", "must be below `Loading/strain limit`");

@@ -12,6 +12,8 @@ namespace {
 constexpr double impossible_ratio = 1e6, unusual_ratio = 1e3;
 /// Modulus over tensile strength of a bond [-]: rock breaks at strains of 1e-4 to 1e-2.
 constexpr double softest_bond = 10.0, stiffest_bond = 1e6;
+/// Tensile strength of the rock over that of its bonds, some [-].
+constexpr double strength_of_rock = 1.0 / 20.0;
 /// Contacts of a packing, bond gap included, that are reached [-].
 constexpr double most_coordination = 8.0;
 /// Volume fraction, shells included, of packings that hold together [-].
@@ -96,9 +98,10 @@ void remark_on_specimen(Remarks& remarks, const SpecimenKeys& k)
 void remark_on_granular(Remarks& remarks, const SpecimenKeys& k)
 {
   if (k.is_granular() && !k.specimen.free_rotation)
-    remarks.push_back("Motion/free rotation = false; usual without bonds is true: particles "
-                      "that do not spin reach friction angles beyond 45 degrees, round "
-                      "ones that spin some 20");
+    remarks.push_back(
+        "Motion/free rotation = false; usual without bonds is true: particles "
+        "that do not spin reach friction angles beyond 45 degrees, round "
+        "ones that spin some 20");
 }
 
 void remark_on_materials(Remarks& remarks, const BondKeys& bond, const ContactKeys& contact)
@@ -125,6 +128,23 @@ void refuse_impossible(const CaseFile& file, const BondKeys& bond,
                     in_mpa(strength) +
                     ". Are the units right? mPa is a thousandth of a pascal");
   refuse_other_rock(file, "Contact", modulus_key(far), dem::modulus(far), bond);
+}
+
+void refuse_kept_pressure(const CaseFile& file, const SpecimenKeys& k, const BondKeys& bond)
+{
+  const dem::SpecimenSpec& s = k.specimen;
+  const std::string why =
+      "the contacts of such a specimen keep their pressure, and nothing "
+      "confines it in this test: its bonds would be torn ";
+  if (s.compaction == dem::Compaction::expanded)
+    file.refuse("Specimen", "packing", why + "at the start. Use `unjammed`");
+  const double most = tensile_strength(bond.chosen()) * strength_of_rock / 2.0;
+  if (s.compaction == dem::Compaction::confined && s.pressure > most)
+    file.refuse(
+        "Specimen", "target pressure",
+        why + "before it is loaded: must be at most " + in_mpa(most) +
+            ", half of what a rock of these bonds bears in tension; or use `packing = "
+            "unjammed`");
 }
 
 void refuse_other_rock(const CaseFile& file, const std::string& section,

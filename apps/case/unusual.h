@@ -46,6 +46,12 @@ void remark_on_materials(Remarks& remarks, const BondKeys& bond,
 void refuse_impossible(const CaseFile& file, const BondKeys& bond,
                        const ContactKeys& contact);
 
+/// Refuse a bonded specimen whose contacts keep a pressure in a test where nothing confines it: one
+/// that is packed `expanded`, or `confined` at more than half of what the rock bears in tension.
+/// @throws InputError naming file, line and key
+void refuse_kept_pressure(const CaseFile& file, const SpecimenKeys& k,
+                          const BondKeys& bond);
+
 /// Refuse a modulus [Pa] of this key that is a million times off that of the bonds.
 /// @throws InputError naming file, line and key
 void refuse_other_rock(const CaseFile& file, const std::string& section,

@@ -279,7 +279,10 @@ void complete(CaseFile& file, TriaxialCase& c)
   complete(file, c.checkpoints);
   c.stages = stages_of(file, c.stage_texts);
   c.stage_labels = labels_of(c.stage_texts);
-  if (c.specimen.is_granular()) check_granular(file, c);
+  if (c.specimen.is_granular())
+    check_granular(file, c);
+  else if (!c.membrane.is_there || c.stages.front().kind == dem::PathKind::compression)
+    refuse_kept_pressure(file, c.specimen, c.bond);
   check_stages(file, c);
   const dem::SpecimenSpec& s = c.specimen.specimen;
   file.derive("Loading", "wave stress",

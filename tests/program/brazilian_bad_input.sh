@@ -46,6 +46,14 @@ refuse_set "a disc thinner than its particles" "${place}Specimen/upscaling ratio
   "Specimen/height=0.4 mm"
 refuse_set "a disc of one particle" "${place}Specimen/upscaling ratio = 5: the largest particle, 0\.6685 mm, does not fit .*" \
   "Specimen/diameter=0.5 mm"
+kept='the contacts of such a specimen keep their pressure, and nothing confines it in this test: '
+refuse_set "a disc that bursts" "--set Specimen/packing = expanded: ${kept}.*Use .unjammed." "Specimen/packing=expanded"
+# The bonds bear 36 MPa, their rock some twentieth of it.
+refuse_set "a disc that breaks before it is loaded" \
+  "--set Specimen/target pressure = 1 MPa: ${kept}.* at most 0\.9 MPa, .*packing = unjammed." \
+  "Specimen/packing=confined" "Specimen/target pressure=1 MPa"
+refuse_set "a disc without bonds" '--set Specimen/coordination = 0: .*' "Specimen/coordination=0" "Specimen/packing=confined" \
+  "Specimen/target pressure=5 kPa"
 refuse_set "a specimen that is not there" '.*Specimen/file = .*none\.h5: .*' "Specimen/file=none.h5"
 refuse "no case" '.*none\.prm.*' brazilian none.prm --output out
 

@@ -9,6 +9,13 @@ case_file=$root/apps/cases/triaxial_small.prm good_job=triaxial
 . "$root/tests/program/refusals.sh"
 place='((good\.prm(:[0-9]+)?: )|--set )'
 
+## specimen
+kept='the contacts of such a specimen keep their pressure, and nothing confines it in this test: '
+refuse_set "an unconfined specimen that bursts" "--set Specimen/packing = expanded: ${kept}.*Use .unjammed." \
+  "Specimen/packing=expanded" "Membrane/membrane=false" "Loading/stage 1=compression to axial strain = 1 %" "Loading/stage 2="
+refuse_set "a stage without pressure that bursts it in the membrane" "--set Specimen/packing = expanded: ${kept}.*" \
+  "Specimen/packing=expanded" "Loading/stage 1=compression to axial strain = 1 %" "Loading/stage 2="
+
 ## membrane
 refuse_set "a mesh through which particles slip" \
   '--set Membrane/node distance = 0\.5 mm: particles would slip through .* at most the diameter of the smallest, 0\.33 mm' \
