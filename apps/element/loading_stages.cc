@@ -320,6 +320,49 @@ std::vector<StageLabel> labels_of(const StageTexts& texts)
 
 namespace {
 
+/// Direction of the controlled strain in which the path of this stage is loaded: 1 or -1.
+double loading_direction(const StageLabel& last, const dem::ActiveStage& before,
+                         const dem::ActiveStage& now)
+{
+  if (last.text.starts_with("unload ")) return -before.direction;
+  if (last.text.starts_with("resume")) // it may load and unload
+    return now.strain_at_start < 0.0 ? -1.0 : 1.0;
+  return before.direction;
+}
+
+/// "q is 2.4 MPa" of a stage `unload to q = 9 MPa`.
+std::string value_in_words(const std::string& text, const dem::ActiveStage& now)
+{
+  const auto from = text.find(" to ") + 4;
+  std::ostringstream out;
+  out.precision(3);
+  out << trimmed(text.substr(from, text.find('=') - from)) << " is ";
+  if (dem::is_strain(now.quantity))
+    out << 100.0 * now.value_at_start << " %";
+  else
+    out << 1e-6 * now.value_at_start << " MPa";
+  return out.str();
+}
+
+} // namespace
+
+std::string wrong_direction(const std::vector<StageLabel>& labels,
+                            const dem::ActiveStage& before, const dem::ActiveStage& now)
+{
+  if (labels.size() < 2 || now.returns || now.target == now.value_at_start) return "";
+  const StageLabel& label = labels.back();
+  const bool unloads = label.text.starts_with("unload");
+  if (!unloads && !label.text.starts_with("reload")) return "";
+  const double loading = loading_direction(labels[labels.size() - 2], before, now);
+  if (now.direction == (unloads ? -loading : loading)) return "";
+  return "stage " + label.name() + ", " + label.text + ": " +
+         value_in_words(label.text, now) + " where it begins, so it would be " +
+         (unloads ? "a loading" : "an unloading") + "; continue with another `Loading/" +
+         key_of_stage(label.number) + "`";
+}
+
+namespace {
+
 /// A stage of the test with its place in the case.
 struct NumberedStage {
   std::size_t number;

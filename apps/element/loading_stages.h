@@ -55,6 +55,15 @@ struct StageLabel {
 /// One for each loading stage of these texts, in their order. @pre stages_of() has read them
 std::vector<StageLabel> labels_of(const StageTexts& texts);
 
+/// What is wrong with a stage that has just begun: its word is `unload`, `unload-reload` or
+/// `reload`, and its target lies on the other side of the present state. A sentence with stage,
+/// quantity, value and remedy; empty where nothing is wrong, and for all other words.
+/// @param labels up to this stage, the last one
+/// @param before the stage before it, as it ended
+/// @param now    the stage as dem::begin_stage() has made it
+std::string wrong_direction(const std::vector<StageLabel>& labels,
+                            const dem::ActiveStage& before, const dem::ActiveStage& now);
+
 /// Whether a test in which `n_begun` stages of `earlier` were begun may go on with `now`: these
 /// are the same with the same numbers, and so is the reloading where only the unloading of a
 /// stage was begun. A loop may be repeated more or less often, down to the cycles begun.

@@ -11,6 +11,7 @@
 #include "apps/triaxial/triaxial_summary.h"
 #include "dem/assembly/averages.h"
 #include "dem/assembly/distribute.h"
+#include "dem/collective_failure.h"
 #include "dem/continuum/loaded_branches.h"
 #include "dem/io/state/named_rows.h"
 
@@ -337,7 +338,13 @@ void TriaxialJob::run(const std::function<void()>& after_step)
       const std::size_t next = outcomes_.size();
       const bool is_over = !outcomes_.empty() && outcomes_.back() != dem::Outcome::done;
       if (is_over || next == case_.stages.size()) return;
+      const dem::ActiveStage before = test_->state().active;
       test_->begin_stage(next);
+      const auto first = case_.stage_labels.begin();
+      const std::string wrong =
+          wrong_direction({first, first + static_cast<std::ptrdiff_t>(next) + 1}, before,
+                          test_->state().active);
+      if (!wrong.empty()) throw CollectiveFailure(wrong);
       outcomes_.push_back(dem::Outcome::unstable);
     }
     outcomes_.back() = load_stage(resumes, after_step);

@@ -108,6 +108,13 @@ run "compression to axial strain = 0.2 %" "unload-reload to axial stress = 0.5 M
   "resume to axial strain = 0.7 %" "" i || fail "unloaded and reloaded: $(cat i.log)"
 awk -v c="$(value c UCS)" -v i="$(value i UCS)" 'BEGIN { exit !(i > 0.97 * c && i < 1.03 * c) }' ||
   fail "UCS $(value c UCS), with unloading $(value i UCS)"
+# An unloading that would be a loading is known only where it begins; another stage goes on from there.
+code=0
+run "isotropic to p = 0.5 MPa" "triaxial to axial strain = 0.1 %" "unload to q = 9 MPa" "" up \
+  --set "Output/checkpoint every=200 steps" || code=$?
+[ "$code" -eq 2 ] && grep -q 'stage 3, unload to q = 9 MPa: q is .* MPa where it begins, .*another `Loading/stage 3`' up.log ||
+  fail "an unloading to more: $code $(tail -3 up.log)"
+"$mergel" element --restart up --set "Loading/stage 3=unload to q = 0.2 MPa" >log 2>&1 || fail "another stage: $(tail -3 log)"
 # The controlled stress of a stage is approached first, and its strain counts from there.
 run "isotropic to p = 1 MPa" "triaxial at 0.5 MPa to axial strain = 0.1 %" "" "" j || fail "approach: $(cat j.log)"
 awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next }

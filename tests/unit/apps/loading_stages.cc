@@ -94,6 +94,45 @@ TEST_CASE(
   CHECK_FALSE(may_go_on(cycles, read({shear, loop}), 4));
 }
 
+TEST_CASE("An unloading upwards and a reloading downwards are found where they begin",
+          "[unit][apps]")
+{
+  // @param begins quantity where the last stage begins; @param after direction of the one before it
+  const auto wrong = [](const StageTexts& texts, double begins, double after) {
+    const auto stage = read_stages(texts.rbegin()->second).front();
+    dem::ActiveStage before, now;
+    before.direction = after;
+    now.quantity = stage.quantity;
+    now.target = stage.target;
+    now.value_at_start = begins;
+    now.strain_at_start = 2e-3;
+    now.direction = stage.target > begins ? 1.0 : -1.0;
+    return wrong_direction(
+        {labels_of({{1, texts.at(1)}}).front(), labels_of({*texts.rbegin()}).front()},
+        before, now);
+  };
+  const std::string load = "triaxial to axial strain = 1 %";
+  CHECK(wrong({{1, load}, {2, "unload to q = 9 MPa"}}, 2.4e6, 1.0) ==
+        "stage 2, unload to q = 9 MPa: q is 2.4 MPa where it begins, so it would be a "
+        "loading; continue with another `Loading/stage 2`");
+  CHECK(wrong({{1, load}, {2, "unload to q = 1 MPa"}}, 2.4e6, 1.0).empty());
+  CHECK_THAT(wrong({{1, load}, {2, "unload-reload to q = 9 MPa, 2 times"}}, 2.4e6, 1.0),
+             Contains("stage 2a of cycle 1") && Contains("a loading"));
+  CHECK_THAT(wrong({{1, "unload to q = 1 MPa"}, {2, "reload to q = 0.5 MPa"}}, 1e6, -1.0),
+             Contains("an unloading"));
+  CHECK(wrong({{1, "unload to q = 1 MPa"}, {2, "reload to q = 2 MPa"}}, 1e6, -1.0).empty());
+  CHECK(
+      wrong({{1, "unload to q = 1 MPa"}, {2, "unload to q = 0.5 MPa"}}, 1e6, -1.0).empty());
+  // In extension q falls while it loads.
+  CHECK(wrong({{1, "triaxial to axial strain = -1 %"}, {2, "unload to q = -0.1 MPa"}}, -1e6,
+              -1.0)
+            .empty());
+  CHECK_THAT(wrong({{1, "resume to q = 0.5 MPa"}, {2, "unload to axial strain = 3 %"}},
+                   0.01, -1.0),
+             Contains("axial strain is 1 %"));
+  CHECK(wrong({{1, load}, {2, "resume to q = 1 MPa"}}, 2.4e6, 1.0).empty());
+}
+
 TEST_CASE("A cycle of unloading is as many pairs of stages as its number says",
           "[unit][apps]")
 {
