@@ -105,7 +105,8 @@ std::string strength(const TestSeries& s, const StrengthFit& fit)
     m.number("standard error of c [Pa]", fit.line->c_error);
     m.number("phi [degree]", fit.line->phi / degree);
     m.number("standard error of phi [degree]", fit.line->phi_error / degree);
-    m.number("R2 [-]", fit.line->R2);
+    if (const auto R2 = fit.R2()) m.number("R2 [-]", *R2);
+    if (!fit.caution().empty()) m.text("caution", fit.caution());
   }
   return m.object();
 }

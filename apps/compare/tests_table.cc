@@ -140,6 +140,7 @@ void print(std::ostream& out, const TestSeries& s)
                   s.peak.line ? in_words(*s.peak.line) : "");
   print_selection(out, "Coulomb line in the critical state", s.critical.of,
                   s.critical.line ? in_words(*s.critical.line) : "");
+  if (!s.critical.caution().empty()) out << "  " << s.critical.caution() << '\n';
   const CriticalFit& critical = s.critical_states;
   print_selection(out, "critical state line", critical.of,
                   critical.line

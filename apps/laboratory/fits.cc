@@ -11,6 +11,8 @@ namespace {
 /// Pressures that differ by less than this share of the larger are one.
 constexpr double same_pressure = 0.05;
 constexpr double degree = dem::pi / 180.0;
+/// Volumetric over axial strain rate at which the volume is still steady [-].
+constexpr double steady_volume = 0.1;
 
 std::size_t n_pressures(const std::vector<TestReading>& tests,
                         const std::vector<std::size_t>& chosen)
@@ -72,6 +74,24 @@ std::string with_error(double value, double error, const std::string& unit)
 
 } // namespace
 
+std::optional<double> StrengthFit::R2() const
+{
+  if (!line || circles.size() < 3) return {};
+  return line->R2;
+}
+
+std::string StrengthFit::caution() const
+{
+  if (!line || std::abs(volume_rate) <= steady_volume) return "";
+  char text[120];
+  std::snprintf(
+      text, sizeof text,
+      "caution: the volume still changes by %.2g of the axial strain, so this is no "
+      "critical state yet",
+      volume_rate);
+  return text;
+}
+
 StrengthFit peak_strength(const std::vector<TestReading>& tests)
 {
   StrengthFit fit;
@@ -93,7 +113,11 @@ StrengthFit critical_strength(const std::vector<TestReading>& tests)
   StrengthFit fit;
   fit.of = select(tests, 2, "critical states",
                   [](const TestReading& t) { return t.not_critical; });
-  for (const std::size_t k : fit.of.tests) fit.circles.push_back(tests[k].end.circle());
+  for (const std::size_t k : fit.of.tests) {
+    fit.circles.push_back(tests[k].end.circle());
+    if (std::abs(tests[k].volume_rate) > std::abs(fit.volume_rate))
+      fit.volume_rate = tests[k].volume_rate;
+  }
   if (!fit.of.why_not.empty()) return fit;
   set_line(fit);
   return fit;

@@ -25,6 +25,15 @@ struct StrengthFit {
   Selection of;
   std::vector<dem::MohrCircle> circles; ///< one for each test
   std::optional<dem::CoulombLine> line;
+  /// Of the tests of a line in the critical state, the volumetric over axial strain rate that is
+  /// furthest from zero [-]; 0 at the peak.
+  double volume_rate = 0.0;
+
+  /// R2 of the line [-]. None of two tests: any two points lie on a line.
+  std::optional<double> R2() const;
+  /// "caution: ..." where the volume of a test in the critical state still changes by more than a
+  /// tenth of its axial strain; else empty.
+  std::string caution() const;
 };
 
 /// At the peak of q of sheared tests. A peak at a smaller q/p than the test has at its end is

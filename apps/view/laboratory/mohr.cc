@@ -103,8 +103,8 @@ void draw_mohr(Page& page, const TestSeries& series)
       page.line(half_circle(panel, fit.circles[k]), stroke);
     }
     page.line(coulomb(panel, *fit.line), {ink, 4.0, {}});
-    char R2[40];
-    std::snprintf(R2, sizeof R2, ", R2 = %.4f", fit.line->R2);
+    char R2[40] = "";
+    if (fit.R2()) std::snprintf(R2, sizeof R2, ", R2 = %.4f", *fit.R2());
     write_caption(page, panel.box,
                   where + ": " + in_words(*fit.line) + R2 + ", " +
                       std::to_string(fit.circles.size()) + " tests");

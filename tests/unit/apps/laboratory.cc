@@ -307,6 +307,34 @@ TEST_CASE("A line that would mean nothing is refused with its reason", "[unit][a
   CHECK(two.critical_states.line);
 }
 
+TEST_CASE("Two tests have no R2, and a volume that still changes is a caution",
+          "[unit][apps]")
+{
+  const TestSeries three({test_at(0.5), test_at(1), test_at(2)}),
+      two({test_at(1), test_at(2)});
+  CHECK(three.peak.R2().value_or(0.0) == Approx(1.0));
+  REQUIRE(two.peak.line);
+  CHECK_FALSE(two.peak.R2());
+  CHECK_THAT(json_of(three), Contains("R2 [-]"));
+  CHECK_THAT(json_of(two), !Contains("R2 [-]"));
+
+  std::vector<TestReading> dilate = three.tests;
+  for (TestReading& t : dilate) t.volume_rate = 0.02;
+  CHECK(critical_strength(dilate).caution().empty());
+  dilate[1].volume_rate = -0.9;
+  const StrengthFit fit = critical_strength(dilate);
+  CHECK(fit.volume_rate == -0.9);
+  CHECK_THAT(fit.caution(), Contains("still changes by -0.9 of the axial strain"));
+  CHECK(peak_strength(dilate).caution().empty());
+
+  TestSeries all = three;
+  all.critical = fit;
+  std::ostringstream text;
+  print(text, all);
+  CHECK_THAT(text.str(), Contains("\n  caution: the volume still changes"));
+  CHECK_THAT(json_of(all), Contains("\"caution\": "));
+}
+
 TEST_CASE("tests.csv has a cell for each heading, tests.json is JSON, both with the means",
           "[unit][apps]")
 {
