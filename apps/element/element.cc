@@ -158,7 +158,9 @@ void ElementJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
   std::cout << report(case_, specimen, materials) << '\n';
   test_.emplace(case_, std::move(specimen), materials, comm);
   start_ = along_axes(dem::cell_averages(test_->assembly()).stress);
-  std::cout << report_on_start(start_, "of the cell", borne_by_contacts);
+  std::cout << report_on_start(start_, "of the cell",
+                               case_.specimen.is_granular() ? borne_without_bonds
+                                                            : borne_by_contacts);
   report_step();
   folder.prepare();
   on_first_rank([&] { history_.emplace(folder.path() / "history.csv"); });

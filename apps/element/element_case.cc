@@ -292,7 +292,9 @@ std::string report(const ElementCase& c, const dem::PeriodicSpecimen& specimen,
   if (range.S_max > range.S_min) out << " to " << range.S_max;
   if (c.specimen.is_granular()) {
     scaled("g_a", dem::activation_gap(materials.contact));
-    return out.str() + " (Eq. 8); granular, without bonds: section Bond has no effect";
+    const bool has_section = dem::section(materials.bond).E > 0.0; // the key has no default
+    return out.str() + " (Eq. 8); granular, without bonds" +
+           (has_section ? ": section Bond has no effect" : "");
   }
   if (const auto* b = std::get_if<dem::DamageBond>(&materials.bond)) {
     scaled("u_c", b->u_c);

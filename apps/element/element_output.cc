@@ -234,10 +234,12 @@ void summarise(Summary& summary, const ElementCase& c, const ElementSummary& s)
   std::ostream& out = summary.closing;
   out.precision(4);
   out << "at the end: p " << 1e-6 * s.last.whole.p() << ", q " << 1e-6 * s.last.whole.q()
-      << " MPa, e " << s.last.averages.void_ratio << ", " << s.last.broken
-      << " bonds broken (" << s.last.broken_by[0] << " in tension, " << s.last.broken_by[1]
-      << " compression, " << s.last.broken_by[2] << " shear, " << s.last.broken_by[3]
-      << " bending)\n";
+      << " MPa, e " << s.last.averages.void_ratio;
+  if (!c.specimen.is_granular())
+    out << ", " << s.last.broken << " bonds broken (" << s.last.broken_by[0]
+        << " in tension, " << s.last.broken_by[1] << " compression, " << s.last.broken_by[2]
+        << " shear, " << s.last.broken_by[3] << " bending)";
+  out << '\n';
   if (s.critical.line)
     out << "critical states of " << s.critical.states.size()
         << " runs: e = " << s.critical.line->intercept << " - " << -s.critical.line->slope

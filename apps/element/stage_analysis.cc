@@ -166,9 +166,9 @@ void read_resumed(std::vector<Finding>& found, const std::vector<StagePoint>& po
   const auto last = std::find_if(points.rbegin(), points.rend(), is_of);
   if (first == points.end()) return;
   const dem::SoilState &a = first->of_stage, &b = last->of_stage;
-  if (a.axial_strain() != b.axial_strain())
-    found.push_back({"secant modulus of the stage", "Pa",
-                     (b.axial() - a.axial()) / (b.axial_strain() - a.axial_strain())});
+  if (a.axial_strain() == b.axial_strain()) return;
+  const double E = (b.axial() - a.axial()) / (b.axial_strain() - a.axial_strain());
+  if (E > 0.0) found.push_back({"secant modulus of the stage", "Pa", E}); // else it softens
 }
 
 std::optional<std::size_t> broken_in_approach(const std::vector<StagePoint>& points,

@@ -97,7 +97,7 @@ std::string report(const SpecimenKeys& k, const dem::Sample& sample)
   if (s.compaction == dem::Compaction::confined)
     out << "; friction while packed " << p.friction;
   if (k.is_granular())
-    out << "; granular, without bonds: section Bond has no effect";
+    out << "; granular, without bonds";
   else
     out << "; " << sample.bonding.pairs.size() << " bonds, Z = 2 N_bonds/N = " << Z
         << " (wanted " << s.coordination << "), N_bonds/N = " << 0.5 * Z

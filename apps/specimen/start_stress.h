@@ -26,6 +26,8 @@ std::string report_on_start(const dem::Vec3& stress, const std::string& where,
 /// That of a specimen as it was made.
 inline constexpr const char* borne_by_contacts =
     "by its contacts: bonds begin without load";
+/// That of one without bonds.
+inline constexpr const char* borne_without_bonds = "by its contacts";
 
 /// Add p, q and the three stresses, "p at the start [Pa]" and so on.
 void add_start(Summary& summary, const dem::Vec3& stress);

@@ -187,7 +187,9 @@ void TriaxialJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
   const coupling::SpecimenGeometry& g = test_->geometry();
   start_ = along_axes(dem::slab_stress(system_->assembly, g.z_bottom + g.height / 3.0,
                                        g.z_bottom + 2.0 * g.height / 3.0, g.area));
-  std::cout << report_on_start(start_, "of the middle third", borne_by_contacts);
+  std::cout << report_on_start(start_, "of the middle third",
+                               case_.specimen.is_granular() ? borne_without_bonds
+                                                            : borne_by_contacts);
   report_step();
   std::cout << describe(case_, *test_) << '\n';
   folder.prepare();

@@ -172,8 +172,9 @@ void summarise(Summary& summary, const TriaxialCase& c, const coupling::Triaxial
   out.precision(4);
   out << "at the end: p " << 1e-6 * last.whole.p() << ", q " << 1e-6 * last.whole.q()
       << " MPa, volumetric strain of the middle third "
-      << 100.0 * extremes.volumetric_strain << " %, e " << extremes.void_ratio << ", "
-      << last.analysed.broken << " bonds broken\n";
+      << 100.0 * extremes.volumetric_strain << " %, e " << extremes.void_ratio;
+  if (!c.specimen.is_granular()) out << ", " << last.analysed.broken << " bonds broken";
+  out << '\n';
   if (test.has_membrane()) {
     out << "membrane: penetration " << 100.0 * extremes.penetration
         << " % of the volume, largest stretch " << extremes.stretch << ", own load "

@@ -129,11 +129,14 @@ Drop largest_drop(const Curve& c)
 
 std::optional<Drop> first_drop(const Curve& c, double share)
 {
+  if (c.stress.empty()) return {};
+  const double noise = smallest_peak * peak(c).stress;
   std::size_t top = 0;
   for (std::size_t k = 1; k < c.stress.size(); ++k) {
     if (c.stress[k] >= c.stress[top] || (k == top + 1 && is_unloaded_at(c, top)))
       top = k;
-    else if (c.stress[k] < (1.0 - share) * c.stress[top] && !is_between_loops(c, k))
+    else if (c.stress[top] >= noise && c.stress[k] < (1.0 - share) * c.stress[top] &&
+             !is_between_loops(c, k))
       return drop_from(c, top);
   }
   return {};

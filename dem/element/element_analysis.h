@@ -21,6 +21,8 @@ struct Curve {
 
 /// A fall of the stress by less than this share of its peak is no collapse [-].
 inline constexpr double smallest_fall = 0.02;
+/// A peak below this share of the largest stress of the curve is noise [-].
+inline constexpr double smallest_peak = 0.1;
 
 /// The curve without the ends of its reloadings: a reloading rejoins the curve from below, at a
 /// strain beyond that of the unloading. After a loop the points up to the one that bears the
@@ -67,7 +69,7 @@ Drop largest_drop(const Curve& c);
 
 /// The first from whose peak the stress falls by more than this share of the peak: collapse
 /// of a bonded rock that may harden later, beyond the peak. It may lie behind a larger stress at
-/// which the specimen was unloaded.
+/// which the specimen was unloaded. Peaks below `smallest_peak` of the largest stress do not count.
 std::optional<Drop> first_drop(const Curve& c, double share);
 
 /// Mobilised friction angle of Mohr and Coulomb without cohesion [rad]: sin phi = (sigma_1

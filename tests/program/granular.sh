@@ -51,6 +51,8 @@ element() { bounded "$mergel" element "$root/apps/cases/element_small.prm" "${ce
 element --set "Loading/stage 1=isotropic to p = 0.5 MPa" --set "Loading/stage 3=" --set "Loading/stage 4=" --output e >e.log 2>&1 ||
   fail "element: $(tail -5 e.log)"
 grep -q 'granular, without bonds: section Bond has no effect' e.log || fail "what has no effect is not said: $(cat e.log)"
+! grep -q 'bonds broken\|bonds begin' e.log a.log || fail "bonds are told of where there are none: $(cat e.log a.log)"
+! grep -q 'section Bond' a.log || fail "a section is named that the case does not have: $(cat a.log)"
 # Particles that may not spin are twice as strong: that is said, by the job and by check, and only then.
 grep -q '^unusual: Motion/free rotation = false; usual without bonds is true' e.log || fail "the rotation constraint is not said: $(cat e.log)"
 for spins in false true; do

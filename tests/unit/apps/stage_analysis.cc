@@ -225,6 +225,20 @@ TEST_CASE("A stage that unloads has a modulus and no strength", "[unit][apps]")
   CHECK(std::isnan(found(r[1], "first peak before a collapse")));
 }
 
+TEST_CASE("A stage that softens has no modulus, and noise before the peak is no first peak",
+          "[unit][apps]")
+{
+  RecordedTest t;
+  t.stage("compression to axial strain = 1 %");
+  t.stage("resume to axial strain = 2 %");
+  t.axial(0, {{0.0, 0.0}, {1e-4, 60e3}, {2e-4, 40e3}, {5e-3, 1.3e6}, {1e-2, 1.2e6}});
+  t.axial(1, {{1e-2, 1.2e6}, {2e-2, 0.9e6}});
+  const auto r = t.results();
+  CHECK(found(r[0], "UCS") == Approx(1.3e6));
+  CHECK(std::isnan(found(r[0], "first peak before a collapse")));
+  CHECK(std::isnan(found(r[1], "secant modulus of the stage")));
+}
+
 TEST_CASE("Records of an approach are left out, and so is q/p where p is near zero",
           "[unit][apps]")
 {

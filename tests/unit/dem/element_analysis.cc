@@ -57,7 +57,11 @@ TEST_CASE("A peak and the minimum after it are of one fall of the stress", "[uni
   REQUIRE(first_drop(c, 0.02));
   CHECK(first_drop(c, 0.02)->peak.stress == 6.4);
   CHECK(first_drop(c, 0.02)->minimum.stress == 5.6);
-  CHECK_FALSE(first_drop(c, 0.2));              // falls by 12.5 % only
+  CHECK_FALSE(first_drop(c, 0.2)); // falls by 12.5 % only
+  // A fall below a tenth of the largest stress is noise, and does not hide the one behind it.
+  const Curve noisy{{0, 1, 2, 3, 4, 5}, {0.0, 0.5, 0.2, 6.0, 4.0, 9.0}};
+  REQUIRE(first_drop(noisy, 0.02));
+  CHECK(first_drop(noisy, 0.02)->peak.stress == 6.0);
   CHECK(largest_drop(c).minimum.strain == 6.0); // the curve ends at its peak
   const Curve softens{{0, 1, 2, 3}, {0.0, 4.2, 2.1, 2.6}};
   CHECK(largest_drop(softens).minimum.stress == 2.1);
