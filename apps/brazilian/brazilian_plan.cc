@@ -19,7 +19,9 @@ Remarks unusual(const BrazilianCase& c)
                      std::sqrt(s.rho / p),
                  quasi_static, "the test is not quasi-static; lower `Loading/velocity`");
   remark_on_specimen(remarks, c.specimen);
+  remark_on_motion(remarks, c.contact, c.damping);
   remark_on_materials(remarks, c.bond, c.contact);
+  remark_on_bonds(remarks, c.bond, c.specimen);
   return remarks;
 }
 

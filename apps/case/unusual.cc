@@ -19,6 +19,11 @@ constexpr double most_coordination = 8.0;
 /// Volume fraction, shells included, of packings that hold together [-].
 constexpr double loosest_fraction = 0.52;
 
+/// Density of grains, from light ones such as pumice to ores [kg/m^3].
+constexpr double lightest_grain = 500.0, heaviest_grain = 10000.0;
+constexpr double largest_friction = 2.0;   // between particles [-]
+constexpr double strongest_damping = 0.95; // [-]
+
 double tensile_strength(const dem::BondLaw& bond)
 {
   return std::visit(
@@ -93,6 +98,32 @@ void remark_on_specimen(Remarks& remarks, const SpecimenKeys& k)
                   dem::effective_solid_fraction(s), loosest_fraction,
                   "at this porosity most of them touch nobody, and few are bonded; lower "
                   "`Specimen/porosity` or raise `Contact/activation gap`");
+  const std::string density = "Specimen/grain density [kg/m3]";
+  expect_at_least(remarks, density, s.rho, lightest_grain, "is a unit wrong?");
+  expect_at_most(remarks, density, s.rho, heaviest_grain, "is a unit wrong?");
+}
+
+void remark_on_bonds(Remarks& remarks, const BondKeys& bond, const SpecimenKeys& k)
+{
+  const dem::BondLaw law = bond.chosen();
+  const auto* b = std::get_if<dem::DamageBond>(&law);
+  if (b == nullptr) return;
+  expect_at_most(remarks, "Bond/tensile strength/compressive strength",
+                 b->sigma_t / b->sigma_c, 1.0,
+                 "cement is stronger in compression; are the two exchanged?");
+  expect_at_most(
+      remarks, "Bond/softening displacement/radius of the smallest particle",
+      b->u_c / (0.5 * k.specimen.sizes.smallest()), 1.0,
+      "such a bond is drawn out by more than a grain before it breaks; is a unit "
+      "wrong?");
+}
+
+void remark_on_motion(Remarks& remarks, const ContactKeys& contact, double damping)
+{
+  expect_at_most(remarks, "Contact/friction", dem::friction(contact.chosen()),
+                 largest_friction, "friction angles of grains are below 63 degrees");
+  expect_at_most(remarks, "Motion/damping", damping, strongest_damping,
+                 "the particles hardly follow their forces");
 }
 
 void remark_on_granular(Remarks& remarks, const SpecimenKeys& k)

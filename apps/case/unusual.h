@@ -30,7 +30,7 @@ void expect_at_most(Remarks& remarks, const std::string& name, double value, dou
 /// Median diameter of the particles at the smallest S [m].
 double smallest_d_50(const SpecimenKeys& k);
 
-/// Porosity, coordination, particles across the region.
+/// Porosity, coordination, particles across the region, grain density.
 void remark_on_specimen(Remarks& remarks, const SpecimenKeys& k);
 
 /// The rotation constraint of particles without bonds (dem/README.md, Motion).
@@ -39,6 +39,11 @@ void remark_on_granular(Remarks& remarks, const SpecimenKeys& k);
 /// Moduli against each other and against the strengths of the bonds.
 void remark_on_materials(Remarks& remarks, const BondKeys& bond,
                          const ContactKeys& contact);
+
+/// Strengths against each other, and the softening displacement against the particles.
+void remark_on_bonds(Remarks& remarks, const BondKeys& bond, const SpecimenKeys& k);
+/// Friction between particles, and the damping of their motion [-].
+void remark_on_motion(Remarks& remarks, const ContactKeys& contact, double damping);
 
 /// Refuse moduli and strengths that no rock has: a bond that would stretch by more than its
 /// length before it breaks, a contact a million times stiffer or softer than the bonds.

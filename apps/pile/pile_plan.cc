@@ -78,7 +78,9 @@ Remarks unusual(const PileCase& c)
                  quasi_static_pile,
                  "the penetration is not quasi-static; lower `Pile/penetration rate`");
   remark_on_specimen(remarks, a);
+  remark_on_motion(remarks, a.contact, a.damping);
   remark_on_materials(remarks, a.bond, a.contact);
+  remark_on_bonds(remarks, a.bond, a);
   if (a.model == coupling::FarFieldStructure::Model::elastic)
     remark_on_other_rock(remarks, "far field", a.far_field.E, a.bond);
   return remarks;

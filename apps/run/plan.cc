@@ -12,6 +12,7 @@ namespace {
 constexpr double bytes_of_program = 0.20e9, bytes_of_cell = 11e3;
 /// Of a particle: 2.2 kB with 2.0 bonds, 3.2 kB with 2.9; fewer bonds have not been measured.
 constexpr double bytes_of_bond = 1.1e3, fewest_bonds = 2.0;
+constexpr double most_steps = 1e9, most_hours = 720.0;
 
 } // namespace
 
@@ -38,6 +39,14 @@ Plan plan_of_specimen(const CaseFile& file, const SpecimenKeys& k,
   plan.step =
       step_safety * dem::estimated_stable_step(k.specimen, material, inertia_factor);
   return plan;
+}
+
+void remark_on_length(Plan& plan)
+{
+  const std::string why = "is a rate too small, or a unit wrong?";
+  expect_at_most(plan.unusual, "number of steps", plan.n_steps, most_steps, why);
+  expect_at_most(plan.unusual, "hours on one rank", hours_of(plan, usual_cost, 1),
+                 most_hours, why);
 }
 
 double memory_of(const Plan& plan)

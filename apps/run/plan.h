@@ -33,6 +33,9 @@ Plan plan_of_specimen(const CaseFile& file, const SpecimenKeys& k,
                       const dem::PairMaterials& material, double step_safety,
                       double inertia_factor);
 
+/// Steps and hours, on one core at the usual cost, that hardly anybody waits for.
+void remark_on_length(Plan& plan);
+
 /// The plan of a case file: reads and checks it as the job does, then asks plan_of(file, case).
 /// @throws InputError naming file, line and key
 template <class Case>
@@ -43,7 +46,9 @@ Plan plan_case(const JobOptions& options)
   declare(file, c);
   file.read(options.case_file, options.set);
   complete(file, c);
-  return plan_of(file, c);
+  Plan plan = plan_of(file, c);
+  remark_on_length(plan);
+  return plan;
 }
 
 /// Memory of the first rank [byte], which needs most: program, then far field or particles

@@ -16,7 +16,10 @@ Remarks unusual(const TriaxialCase& c)
                  "the test is not quasi-static");
   remark_on_specimen(remarks, c.specimen);
   remark_on_granular(remarks, c.specimen);
-  if (!c.specimen.is_granular()) remark_on_materials(remarks, c.bond, c.contact);
+  remark_on_motion(remarks, c.contact, c.damping);
+  if (c.specimen.is_granular()) return remarks;
+  remark_on_materials(remarks, c.bond, c.contact);
+  remark_on_bonds(remarks, c.bond, c.specimen);
   return remarks;
 }
 

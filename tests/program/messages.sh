@@ -70,6 +70,22 @@ says 'Loading/inertial number = 0.05; usual is 0.001 or less' "a fast test"
 says 'moduli of bond and contact, the larger over the smaller = ' "a soft contact"
 "$mergel" check "$element" --set "Bond/tensile strength=1 kPa" >log
 says 'bond modulus/tensile strength = ' "weak bonds"
+"$mergel" check "$pile" --set "Pile/penetration rate=1e-12 m/s" >log
+says 'number of steps = [0-9.]*e+[0-9]*; usual is 1e+09 or less' "a pile that nobody sees arrive"
+says 'hours on one rank = ' "the hours of this pile"
+# SETTING TEXT: said by check of each job, and not without it
+for setting in "Contact/friction=5|Contact/friction = 5; usual is 2 or less" "Motion/damping=0.99|Motion/damping = 0.99; usual is 0.95 or less" \
+  "Specimen/grain density=2.6 kg/m3|Specimen/grain density .* = 2.6; usual is 500 or more" \
+  "Specimen/grain density=2556 g/cm3|Specimen/grain density .* usual is 1e+04 or less" \
+  "Bond/tensile strength=300 MPa|Bond/tensile strength/compressive strength = 1.52; usual is 1 or less" \
+  "Bond/softening displacement=4 mm|Bond/softening displacement/radius of the smallest particle = 121; usual is 1 or less"; do
+  for case in "$pile" "$element" "$root/apps/cases/triaxial_small.prm" "$root/apps/cases/brazilian_small.prm"; do
+    "$mergel" check "$case" --set "${setting%|*}" >log
+    says "${setting#*|}" "$case with ${setting%|*}"
+    "$mergel" check "$case" >log
+    ! grep -q "^unusual: ${setting#*|}" log || fail "$case: $(cat log)"
+  done
+done
 small=(--set "Specimen/edge x=3.5 mm" --set "Specimen/edge y=3.5 mm" --set "Specimen/edge z=3.5 mm")
 "$mergel" sample "$element" "${small[@]}" --set "Specimen/coordination=20" --output many >log || fail "many bonds: $(cat log)"
 says 'Specimen/coordination = 20; usual is 8 or less' "many bonds wanted"
