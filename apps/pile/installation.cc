@@ -24,12 +24,16 @@ void BreakageCount::collect(const PileCase& c, dem::Assembly& assembly)
     n_above += x.z() > z_shoulder + D && r > R;
     n_at_tip += x.z() < z_shoulder && (x - pile.x).norm() <= 2.0 * D;
     n_away += x.z() > z_shoulder + R && r > R + 0.5 * D && x.z() < -D;
+    to_far_field =
+        std::min({to_far_field, 0.5 * c.assembly.diameter - std::hypot(x.x(), x.y()),
+                  c.assembly.height + x.z()});
   }
   all += assembly.comm.global_sum(assembly.losses.breakages.size());
   near += assembly.comm.global_sum(n_near);
   above += assembly.comm.global_sum(n_above);
   at_tip += assembly.comm.global_sum(n_at_tip);
   away += assembly.comm.global_sum(n_away);
+  to_far_field = -assembly.comm.global_max(-to_far_field);
   assembly.losses.breakages.clear();
 }
 

@@ -9,6 +9,7 @@
 #include "dem/io/state/named_numbers.h"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -23,6 +24,9 @@ public:
   std::size_t at_tip = 0; ///< below the shoulder and within 2 D_p of the tip
   /// More than D_p/2 above the shoulder, D_p/2 from the shaft and D_p below the surface.
   std::size_t away = 0;
+  /// Of the break that was closest to the far field, from its side or its floor as meshed [m];
+  /// infinite before a bond has broken.
+  double to_far_field = std::numeric_limits<double>::infinity();
 
   /// Count the bonds that broke since the last call, and clear their list; collective.
   void collect(const PileCase& c, dem::Assembly& assembly);

@@ -1,9 +1,11 @@
 #include "apps/pile/pile_summary.h"
 
+#include "apps/case/unusual.h"
 #include "apps/coupled/time_by_parts.h"
 #include "apps/run/progress.h"
 #include "apps/run/step_report.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -86,6 +88,29 @@ void add_figures(Summary& s, const Installation& run,
   s.number("wall-clock time [s]", seconds);
 }
 
+/// How far the crushed zone is from the far field, which does not break.
+void add_reach(Summary& s, const PileCase& c, double distance)
+{
+  if (!std::isfinite(distance)) return; // no bond has broken
+  const dem::SpecimenSpec& spec = c.assembly.specimen;
+  const double d_50 =
+      spec.sizes.sieve(0.5) * std::max(spec.scale.S_inner, spec.scale.S_outer);
+  s.number("distance of the outermost break from the far field [m]", distance);
+  s.number("distance of the outermost break from the far field over D_p [-]",
+           distance / c.diameter);
+  s.number("distance of the outermost break from the far field over d50 there [-]",
+           distance / d_50);
+  s.closing << "the bond that broke closest to the far field was " << 1e3 * distance
+            << " mm from it (" << distance / c.diameter << " D_p, " << distance / d_50
+            << " d50 there)\n";
+  Remarks remarks;
+  expect_at_least(remarks, "distance of the outermost break from the far field/d50",
+                  distance / d_50, 2.0,
+                  "the crushed zone has reached the far field, which does not break; widen "
+                  "`Specimen/diameter` or `Specimen/height`");
+  s.closing << lines_of(remarks);
+}
+
 /// "; the far field's own forces act at every 2nd step (limit 2.04)".
 std::string subcycle_text(const coupling::Structure& far_field)
 {
@@ -137,8 +162,9 @@ void summarise(Summary& summary, const PileCase& c, const Installation& run,
       << " % below the shoulder within 2 D_p of the tip, " << broken.above
       << " more than D_p above the shoulder, " << broken.away
       << " above the shoulder away from the shaft; " << n_debris
-      << " particles are above the collar\n"
-      << "largest energy error " << 100.0 * run.worst_energy_error()
+      << " particles are above the collar\n";
+  add_reach(summary, c, broken.to_far_field);
+  out << "largest energy error " << 100.0 * run.worst_energy_error()
       << " % of the input; largest interface errors " << run.worst_interface().force
       << " (force), " << run.worst_interface().moment << " (moment), "
       << run.worst_interface().power << " (power)\n"

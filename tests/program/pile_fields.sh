@@ -70,6 +70,16 @@ awk -v F="$(found 'head force of the full pile \[N\]')" -v d="$(found 'tip depth
   'BEGIN { print F, d, D, npi; e = F / (1e3 * d) * (0.84 / D) ^ 2; exit !(npi > 0.999 * e && npi < 1.001 * e) }' ||
   fail "the needle penetration index is not head force over depth"
 
+# In a region of 6 mm across around a pile of 1.4 mm the outermost break is inside, and the log says how far from the far field.
+awk -v d="$(found 'distance of the outermost break from the far field \[m\]')" 'BEGIN { exit !(d > -1e-4 && d < 3e-3) }' ||
+  fail "the outermost break: $(grep outermost a/summary.json)"
+grep -q 'the bond that broke closest to the far field was [0-9.]* mm from it (' log || fail "the outermost break is not said: $(cat log)"
+if awk -v d="$(found 'distance of the outermost break from the far field over d50 there \[-\]')" 'BEGIN { exit !(d < 2) }'; then
+  grep -q '^unusual: distance of the outermost break from the far field/d50' log || fail "a crushed zone at the far field is not said: $(cat log)"
+else
+  ! grep -q '^unusual: distance of the outermost break' log || fail "a crushed zone that is not there: $(cat log)"
+fi
+
 # The same bits on two ranks, and from a checkpoint in the middle.
 on_ranks 2 "$mergel" pile "$case_file" "${deep[@]}" --output b >log || fail "two ranks: $(tail -3 log)"
 cp -r a c
