@@ -67,7 +67,7 @@ set(apps_floors
     "specimen: case run"
     "coupled: case run specimen"
     "pile: case run specimen coupled"
-    "element: case run specimen"
+    "element: case run laboratory specimen"
     "triaxial: case run specimen coupled element"
     "brazilian: case run specimen coupled"
     "bond: case run"

@@ -1,5 +1,6 @@
 #include "apps/element/element_output.h"
 
+#include "apps/laboratory/test_reading.h"
 #include "apps/run/progress.h"
 #include "apps/run/restart.h"
 #include "apps/run/step_report.h"
@@ -244,6 +245,12 @@ void summarise(Summary& summary, const ElementCase& c, const ElementSummary& s)
     out << "critical states of " << s.critical.states.size()
         << " runs: e = " << s.critical.line->intercept << " - " << -s.critical.line->slope
         << " (p/p_a)^0.7, R2 " << s.critical.line->R2 << '\n';
+  if (const double strain = s.last.of_stage.axial_strain();
+      s.critical.line && strain < critical_strain)
+    out << "unusual: the last state of this run is one of them, no critical state: it ends "
+           "at "
+        << 100.0 * strain << " % of axial strain, before " << 100.0 * critical_strain
+        << " %\n";
   out << "largest energy error " << s.worst_energy_error
       << " of the work; strain rate up to " << s.largest_rate
       << " 1/s, inertial number up to " << s.largest_inertial_number;

@@ -1,5 +1,7 @@
 #include "apps/element/element_plan.h"
 
+#include "apps/laboratory/test_reading.h"
+#include "dem/error.h"
 #include "dem/specimen/forecast.h"
 
 #include <algorithm>
@@ -29,9 +31,26 @@ void remark_on_frames(Remarks& remarks, const std::vector<dem::LoadingStage>& st
       "`Output/pictures = strain`");
 }
 
+void remark_on_critical_states(Remarks& remarks,
+                               const std::vector<std::filesystem::path>& folders)
+{
+  for (const std::filesystem::path& folder : folders) {
+    std::error_code error; // a folder that cannot be reached counts as gone
+    if (!std::filesystem::exists(folder, error)) continue; // its state is in the case
+    const std::string of = "Analysis/critical states: " + folder.string() + ": ";
+    try {
+      const std::string why = read_test(folder, "").not_critical;
+      if (!why.empty()) remarks.push_back(of + "no critical state: " + why);
+    } catch (const InputError& e) {
+      remarks.push_back(of + "nobody knows whether it is a critical state: " + e.what());
+    }
+  }
+}
+
 Remarks unusual(const ElementCase& c)
 {
   Remarks remarks;
+  remark_on_critical_states(remarks, c.critical_folders);
   remark_on_stages(remarks, c.stages, c.stage_labels, c.strain_limit);
   if (c.pictures == ElementCase::Pictures::stages) remark_on_frames(remarks, c.stages);
   expect_at_most(remarks, "Loading/inertial number", c.inertial_number, quasi_static,

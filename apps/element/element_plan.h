@@ -11,6 +11,11 @@ Remarks unusual(const ElementCase& c);
 
 Plan plan_of(const CaseFile& file, const ElementCase& c);
 
+/// Say of each folder of `Analysis/critical states` that is there why its last state is no
+/// critical one, by the rule of mergel compare (apps/compare/README.md, Lines).
+void remark_on_critical_states(Remarks& remarks,
+                               const std::vector<std::filesystem::path>& folders);
+
 /// Stages whose strain is beyond the limit of the test.
 /// @param labels of all stages
 void remark_on_stages(Remarks& remarks, const std::vector<dem::LoadingStage>& stages,

@@ -17,7 +17,6 @@ constexpr double collapse = 0.1;      // share of the peak by which the stress f
 constexpr double unconfined = 0.01;   // lateral stress over the largest q
 constexpr double slack = 1e-9;        // of the strain: a record at a bound counts
 constexpr double end_share = 0.1;     // of the strain, over which the end is a mean
-constexpr double critical_from = 0.1; // axial strain
 constexpr double steady_ratio = 0.05; // change of q/p over its value
 
 /// "triaxial" of "triaxial at 1 MPa to axial strain = 2 %".
@@ -194,9 +193,9 @@ std::string lacks_of_critical(const TestReading& r)
   char text[160];
   if (!r.is_sheared()) return "not sheared";
   if (r.kind == TestKind::unconfined) return "unconfined";
-  if (r.end.strain < critical_from) {
+  if (r.end.strain < critical_strain) {
     std::snprintf(text, sizeof text, "ends at %.2g %% of axial strain, before %g %%",
-                  100.0 * r.end_strain, 100.0 * critical_from);
+                  100.0 * r.end_strain, 100.0 * critical_strain);
     return text;
   }
   const StressState before = before_end(r);

@@ -15,6 +15,9 @@
 
 namespace mergel::apps {
 
+/// Axial strain before which a test is not in its critical state [-].
+inline constexpr double critical_strain = 0.1;
+
 inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 /// A record of the stage that is read.

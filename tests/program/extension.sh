@@ -132,6 +132,11 @@ head -n -6 all/history.csv >state_B/history.csv
 element "$case_file" "${tiny[@]}" "${none[@]}" --set 'Analysis/critical states="state A" state_B' --output fitted >log || fail "critical states: $(tail -3 log)"
 grep -Eq '"critical states fitted \[-\]": 3(,|$)' fitted/summary.json || fail "critical states: $(cat fitted/summary.json)"
 grep -qF "set critical states = \"$(pwd -P)/state A\" $(pwd -P)/state_B" fitted/resolved.prm || fail "critical states: $(grep critical fitted/resolved.prm)"
+# None of them is a critical state, after a percent of strain: that is said of each.
+cp all/resolved.prm state_B
+"$mergel" check fitted/resolved.prm >log || fail "check: $(cat log)"
+grep -q 'unusual: Analysis/critical states: .*/state A: nobody knows whether it is a critical state: ' log &&
+  grep -q 'unusual: Analysis/critical states: .*/state_B: no critical state: ' log || fail "no critical states, and nothing says so: $(cat log)"
 fitted() { grep '"critical state line' fitted/summary.json; }
 fitted >line
 rm -r "state A" state_B
