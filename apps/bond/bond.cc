@@ -288,7 +288,7 @@ Plan plan_bond(const JobOptions& options)
   CaseFile file;
   BondCase c;
   declare(file, c);
-  file.read(options.case_file, options.set);
+  read_case(file, options, std::nullopt);
   refuse_impossible(file, c.bond, c.contact);
   Plan plan;
   plan.n_particles = 2.0;

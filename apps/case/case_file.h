@@ -179,9 +179,9 @@ public:
                 Default first = Default::present);
 
   /// A file or folder; may be empty unless it must be given. A relative path in the case
-  /// file starts at the case file's folder, one from --set or a default at the working
-  /// directory; the target is absolute. Double quotes around it are left out. The caller
-  /// checks whether it exists.
+  /// file starts at the case file's folder, one from --set, from a case in a pipe, or a
+  /// default at the working directory; the target is absolute. Double quotes around it are
+  /// left out. The caller checks whether it exists.
   void path(const std::string& key, std::filesystem::path& target,
             const std::string& sentence, Default standard = Default::present);
 
@@ -195,6 +195,10 @@ public:
   /// @throws InputError at the first error; bound variables are then unspecified
   void read(const std::filesystem::path& path,
             const std::vector<std::string>& overrides = {});
+
+  /// The same where the text of the file has been read already: a pipe gives it once.
+  void read(const std::filesystem::path& path, const std::string& text,
+            const std::vector<std::string>& overrides);
 
   /// The same from the text of a resolved case instead of a file, which is continued.
   /// @param name of the text in messages

@@ -8,6 +8,7 @@
 #include <deal.II/base/patterns.h>
 
 #include <sstream>
+#include <system_error>
 
 namespace mergel::apps {
 
@@ -24,13 +25,29 @@ std::vector<CaseEntry> with_overrides(std::vector<CaseEntry> entries,
   return entries;
 }
 
+/// Where the relative paths of a case start. A pipe or a device has no folder of its own: the
+/// working folder, also where standard input is a regular file.
+std::filesystem::path folder_of(const std::filesystem::path& case_file)
+{
+  const auto folder = std::filesystem::absolute(case_file).parent_path();
+  std::error_code error;
+  const bool has_folder = std::filesystem::is_regular_file(case_file, error) &&
+                          folder != "/dev" && folder != "/dev/fd";
+  return has_folder ? folder : std::filesystem::current_path();
+}
+
 } // namespace
 
 void CaseFile::read(const std::filesystem::path& path,
                     const std::vector<std::string>& overrides)
 {
-  read(read_case_text(path), path.string(), std::filesystem::absolute(path).parent_path(),
-       overrides);
+  read(path, read_case_text(path), overrides);
+}
+
+void CaseFile::read(const std::filesystem::path& path, const std::string& text,
+                    const std::vector<std::string>& overrides)
+{
+  read(text, path.string(), folder_of(path), overrides);
 }
 
 void CaseFile::continue_from(const std::string& earlier_resolved_text)

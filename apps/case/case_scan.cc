@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
-#include <cstdint>
 #include <fstream>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -149,21 +147,19 @@ std::string read_case_text(const std::filesystem::path& path)
   if (std::filesystem::is_directory(status))
     throw InputError(name + ": is a folder, not a case file. Name a .prm file.");
 
-  constexpr std::uintmax_t largest = 1 << 20; // a case has a few kB
-  if (std::filesystem::is_regular_file(status) &&
-      std::filesystem::file_size(path, error) > largest)
-    throw InputError(name + ": is larger than 1 MB and no case file. Name a .prm file.");
+  constexpr std::size_t largest = 1 << 20; // a case has a few kB; a device has no end
+  std::string content(largest + 1, '\0');
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  if (stream.is_open() && stream.peek() != std::ifstream::traits_type::eof())
-    text << stream.rdbuf();
-  if (!stream.is_open() || stream.bad() || text.bad() || errno != 0)
+  if (stream.is_open())
+    stream.read(content.data(), static_cast<std::streamsize>(content.size()));
+  if (!stream.is_open() || stream.bad() || errno != 0)
     throw InputError(name + ": cannot be read (" +
                      std::generic_category().message(errno != 0 ? errno : EIO) +
                      "). Check its permissions.");
-
-  std::string content = text.str();
+  content.resize(static_cast<std::size_t>(stream.gcount()));
+  if (content.size() > largest)
+    throw InputError(name + ": is larger than 1 MB and no case file. Name a .prm file.");
   try {
     content = dem::plain_text(std::move(content));
   } catch (const InputError& e) {

@@ -22,7 +22,8 @@ struct CaseScan {
 };
 
 /// The text of a case file, with plain newlines and without a byte order mark.
-/// @throws InputError when it is missing, a folder, not readable, or not text
+/// A pipe can be read once only.
+/// @throws InputError when it is missing, a folder, not readable, larger than 1 MB, or not text
 std::string read_case_text(const std::filesystem::path& path);
 
 /// Scan the text of a case file by the rules of ParameterHandler.

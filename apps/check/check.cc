@@ -1,10 +1,10 @@
 /// mergel check: reads and checks a case of any job, and says what would run. No results.
+#include "apps/case/job_of_case.h"
 #include "apps/case/words.h"
 #include "apps/run/command_line.h"
 #include "apps/run/jobs.h"
 #include "apps/run/plan.h"
 #include "apps/run/ranks.h"
-#include "apps/sample/job_of_case.h"
 
 #include <algorithm>
 #include <array>
@@ -25,15 +25,12 @@ struct CheckOptions {
 /// Processor time for the making of a specimen, for each particle [s] (apps/batch/README.md).
 constexpr double seconds_to_make = 1.6e-3;
 
-const Job& job_of(const JobOptions& options)
+/// Reads the case file, whose text then belongs to the options.
+const Job& job_of(JobOptions& options)
 {
-  const CaseScan scan =
-      scan_case(read_case_text(options.case_file), options.case_file.string());
-  const char* const names[] = {"sample", "pile", "element", "triaxial", "brazilian"};
-  const std::string name =
-      scan.sections.contains("Particles")
-          ? "bond"
-          : names[static_cast<std::size_t>(job_of_case(scan, options.set))];
+  options.case_text = read_case_text(options.case_file);
+  const CaseScan scan = scan_case(*options.case_text, options.case_file.string());
+  const std::string name = name_of(job_of_case(scan, options.set));
   return *std::find_if(jobs.begin(), jobs.end(),
                        [&](const Job& job) { return name == job.name; });
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <iosfwd>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -15,10 +16,12 @@ namespace mergel::apps {
 /// What the command line says about the run of a case.
 struct JobOptions {
   std::filesystem::path case_file; ///< may be empty with `restart`
-  std::vector<std::string> set;    ///< "Section/key=value", in the order given
-  std::filesystem::path output;    ///< results folder, not yet checked
-  bool overwrite = false;          ///< an earlier run there may be replaced
-  std::filesystem::path restart;   ///< checkpoint or results folder; empty: a new run
+  /// Of the case file, where it has been read already: a pipe can be read once only.
+  std::optional<std::string> case_text;
+  std::vector<std::string> set;  ///< "Section/key=value", in the order given
+  std::filesystem::path output;  ///< results folder, not yet checked
+  bool overwrite = false;        ///< an earlier run there may be replaced
+  std::filesystem::path restart; ///< checkpoint or results folder; empty: a new run
   double walltime = std::numeric_limits<double>::infinity(); ///< wall-clock limit [s]
   std::vector<std::string> command; ///< the words of the whole command line
 };

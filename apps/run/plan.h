@@ -5,6 +5,7 @@
 #include "apps/case/case_file.h"
 #include "apps/case/unusual.h"
 #include "apps/run/jobs.h"
+#include "apps/run/restart.h"
 
 #include <string>
 
@@ -44,7 +45,7 @@ Plan plan_case(const JobOptions& options)
   CaseFile file;
   Case c;
   declare(file, c);
-  file.read(options.case_file, options.set);
+  read_case(file, options, std::nullopt);
   complete(file, c);
   Plan plan = plan_of(file, c);
   remark_on_length(plan);

@@ -132,7 +132,10 @@ void read_case(CaseFile& file, const JobOptions& options,
                const std::optional<Restart>& restart)
 {
   if (!options.case_file.empty()) {
-    file.read(options.case_file, options.set);
+    if (options.case_text)
+      file.read(options.case_file, *options.case_text, options.set);
+    else
+      file.read(options.case_file, options.set);
     return;
   }
   if (restart) {

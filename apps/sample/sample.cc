@@ -1,5 +1,6 @@
 /// mergel sample: makes a specimen and writes it to a file that later runs read.
 #include "apps/brazilian/brazilian_plan.h"
+#include "apps/case/job_of_case.h"
 #include "apps/case/words.h"
 #include "apps/coupled/system_of_case.h"
 #include "apps/element/element_plan.h"
@@ -10,7 +11,6 @@
 #include "apps/run/ranks.h"
 #include "apps/run/restart.h"
 #include "apps/run/results.h"
-#include "apps/sample/job_of_case.h"
 #include "apps/specimen/specimen.h"
 #include "apps/triaxial/triaxial_plan.h"
 #include "dem/continuum/particle_stress.h"
@@ -77,12 +77,15 @@ void fit_to_walls(PileCase& c)
   make_far_field(c.assembly, MPI_COMM_WORLD); // sets the faces around the side
 }
 
-CaseJob job_of(const JobOptions& options)
+/// Reads the case file, whose text then belongs to the options.
+CaseJob job_of(JobOptions& options)
 {
   const std::filesystem::path file =
       options.case_file.empty() ? folder_to_restart(options.restart) / "resolved.prm"
                                 : options.case_file;
-  return job_of_case(scan_case(read_case_text(file), file.string()), options.set);
+  const std::string text = read_case_text(file);
+  if (!options.case_file.empty()) options.case_text = text;
+  return job_of_case(scan_case(text, file.string()), options.set);
 }
 
 /// Particles, bonds and contacts as an assembly at rest, for the writers of fields.
@@ -196,7 +199,7 @@ Plan plan_sample(const JobOptions& options)
   CaseFile file;
   SampleCase c;
   declare(file, c);
-  file.read(options.case_file, options.set);
+  read_case(file, options, std::nullopt);
   complete(file, c);
   Plan plan;
   plan.n_particles = dem::expected_particles(c.specimen.specimen);
@@ -207,14 +210,16 @@ Plan plan_sample(const JobOptions& options)
   return plan;
 }
 
-int run_sample(const JobOptions& options)
+int run_sample(const JobOptions& given)
 {
+  JobOptions options = given;
   CaseJob job = CaseJob::sample;
   on_every_rank([&] { job = job_of(options); });
   MPI_Bcast(&job, sizeof job, MPI_BYTE, 0,
             MPI_COMM_WORLD); // require_same_case() compares the cases
   switch (job) {
   case CaseJob::sample:
+  case CaseJob::bond: // which read_case() refuses
     make<SampleCase>(options);
     break;
   case CaseJob::pile:

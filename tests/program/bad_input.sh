@@ -30,6 +30,9 @@ refuse "malformed --set" '--set "diameter": is not understood\. .*' pile good.pr
 refuse "missing case file" 'none\.prm: no such case file\. .*' pile none.prm --output out
 mkdir folder
 refuse "folder as case file" 'folder: is a folder, not a case file\. .*' pile folder --output out
+for job in check sample pile; do
+  refuse "a device without end as case file ($job)" '/dev/zero: is larger than 1 MB and no case file\. .*' $job /dev/zero
+done
 edited case.prm 's/set diameter( *=.*mm)/set diametre\1/'
 refuse "unknown key" 'case\.prm:[0-9]+: (Pile|Specimen)/diametre = .*: unknown key .*"diameter".*' \
   pile case.prm --output out

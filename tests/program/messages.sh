@@ -24,6 +24,15 @@ plain log "the results of a folder"
 [ "$(code_of "$mergel" info "$escape")" = 0 ] || fail "info of it: $(cat -v log)"
 plain log "info of a folder"
 
+## a case from a pipe; its relative paths start at the working folder
+cp "$root/apps/cases/bond_fig5a.csv" .
+for case in "$pile" "$bond" "$element"; do
+  "$mergel" check /dev/stdin <"$case" >log || fail "check of standard input, $case: $(cat log)"
+  cat "$case" | "$mergel" check /dev/stdin >piped || fail "check of a pipe, $case: $(cat piped)"
+  cmp -s log piped || fail "$case: a pipe is another case: $(diff log piped)"
+done
+cat "$root/apps/cases/pile_small.prm" | "$mergel" sample /dev/stdin "${tiny[@]}" --output piped_rock >log || fail "sample of a pipe: $(cat log)"
+
 ## what is to be typed
 "$mergel" bond "$bond" --output "my results" >log
 grep -qF "mergel-view 'my results'" log || fail "a folder with a blank, bond: $(tail -1 log)"

@@ -1,4 +1,4 @@
-#include "apps/sample/job_of_case.h"
+#include "apps/case/job_of_case.h"
 
 #include "tests/support/catch.h"
 #include "tests/support/repository.h"
@@ -21,7 +21,7 @@ CaseJob job_of_file(const char* name)
 
 } // namespace
 
-TEST_CASE("mergel sample knows the job of every case that ships", "[unit][apps]")
+TEST_CASE("The job of every case that ships is known", "[unit][apps]")
 {
   CHECK(job_of_file("sample_rock.prm") == CaseJob::sample);
   CHECK(job_of_file("sample_dense.prm") == CaseJob::sample);
@@ -34,7 +34,7 @@ TEST_CASE("mergel sample knows the job of every case that ships", "[unit][apps]"
   CHECK(job_of_file("ucs.prm") == CaseJob::triaxial);
   CHECK(job_of_file("brazilian.prm") == CaseJob::brazilian);
   CHECK(job_of_file("brazilian_small.prm") == CaseJob::brazilian);
-  CHECK(job_of_file("bond_fig5a.prm") == CaseJob::sample); // which has no such sections
+  CHECK(job_of_file("bond_fig5a.prm") == CaseJob::bond);
 }
 
 TEST_CASE("The job of a case follows from sections, shape and keys", "[unit][apps]")

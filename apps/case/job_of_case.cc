@@ -1,4 +1,4 @@
-#include "apps/sample/job_of_case.h"
+#include "apps/case/job_of_case.h"
 
 namespace mergel::apps {
 
@@ -20,12 +20,32 @@ CaseJob job_of_case(const CaseScan& scan, const std::vector<std::string>& set)
     if (e.key == "diameter") has_diameter = true;
   }
 
+  if (has("Particles")) return CaseJob::bond;
   if (has("Pile") || shape == "half cylinder") return CaseJob::pile;
   if (has("Plates") || has_velocity) return CaseJob::brazilian;
   if (has("Membrane") || has("Platens")) return CaseJob::triaxial;
-  if (!has("Loading") || has("Particles")) return CaseJob::sample;
+  if (!has("Loading")) return CaseJob::sample;
   const bool is_round = shape.empty() ? has_diameter : shape == "cylinder";
   return is_round ? CaseJob::triaxial : CaseJob::element;
+}
+
+const char* name_of(CaseJob job)
+{
+  switch (job) {
+  case CaseJob::sample:
+    return "sample";
+  case CaseJob::bond:
+    return "bond";
+  case CaseJob::pile:
+    return "pile";
+  case CaseJob::element:
+    return "element";
+  case CaseJob::triaxial:
+    return "triaxial";
+  case CaseJob::brazilian:
+    return "brazilian";
+  }
+  return "";
 }
 
 } // namespace mergel::apps
