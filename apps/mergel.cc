@@ -43,6 +43,7 @@ std::vector<std::string> jobs_with_checkpoints()
 JobOptions parse_case(const Job& job, const std::vector<std::string>& command_line)
 {
   JobOptions options;
+  options.job = job.name;
   options.command = command_line;
   std::vector<std::string> arguments(command_line.begin() + 2, command_line.end());
   CLI::App app;

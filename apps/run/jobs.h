@@ -15,6 +15,7 @@ namespace mergel::apps {
 
 /// What the command line says about the run of a case.
 struct JobOptions {
+  std::string job; ///< its name; empty: a case of another job is not looked for
   std::filesystem::path case_file; ///< may be empty with `restart`
   /// Of the case file, where it has been read already: a pipe can be read once only.
   std::optional<std::string> case_text;

@@ -1,5 +1,7 @@
 #include "apps/run/restart.h"
 
+#include "apps/case/case_scan.h"
+#include "apps/case/job_of_case.h"
 #include "apps/case/words.h"
 #include "apps/run/frames.h"
 #include "dem/error.h"
@@ -128,14 +130,38 @@ std::optional<Restart> find_restart(const fs::path& place, const std::string& jo
   return found;
 }
 
+namespace {
+
+/// Read a case file. One that is refused may be a case of another job: then this is said, and
+/// not which of its keys this job does not know.
+/// @param arguments behind the name of the job, to run it
+void read_or_name_job(CaseFile& file, const fs::path& path, const std::string& text,
+                      const JobOptions& options, const std::string& arguments)
+{
+  try {
+    file.read(path, text, options.set);
+  } catch (const InputError&) {
+    // Without --set: they are for this job. A specimen alone may be the start of any case.
+    const CaseJob job = job_of_case(scan_case(text, path.string()), {});
+    const bool is_other = !options.job.empty() && options.job != name_of(job) &&
+                          (options.job != "sample" || job == CaseJob::bond);
+    if (!is_other || job == CaseJob::sample) throw;
+    throw InputError(path.string() + ": is a case of mergel " + name_of(job) +
+                     ", not of mergel " + options.job + ". Run `mergel " + name_of(job) +
+                     " " + arguments + "`.");
+  }
+}
+
+} // namespace
+
 void read_case(CaseFile& file, const JobOptions& options,
                const std::optional<Restart>& restart)
 {
   if (!options.case_file.empty()) {
-    if (options.case_text)
-      file.read(options.case_file, *options.case_text, options.set);
-    else
-      file.read(options.case_file, options.set);
+    read_or_name_job(file, options.case_file,
+                     options.case_text ? *options.case_text
+                                       : read_case_text(options.case_file),
+                     options, in_shell(options.case_file.string()));
     return;
   }
   if (restart) {
@@ -149,7 +175,8 @@ void read_case(CaseFile& file, const JobOptions& options,
     throw InputError("--restart " + options.restart.string() +
                      ": holds neither a checkpoint nor a resolved.prm. Name the case file "
                      "to begin a run.");
-  file.read(resolved, options.set);
+  read_or_name_job(file, resolved, read_case_text(resolved), options,
+                   "--restart " + in_shell(options.restart.string()));
 }
 
 namespace {

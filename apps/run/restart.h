@@ -46,6 +46,7 @@ std::filesystem::path folder_to_restart(const std::filesystem::path& place);
 
 /// Read the case to run: from the case file of the options, else from the checkpoint, else
 /// from resolved.prm of the folder to restart.
+/// @throws InputError of the case; where it is one of another job, with the name of that job
 void read_case(CaseFile& file, const JobOptions& options,
                const std::optional<Restart>& restart);
 

@@ -74,6 +74,27 @@ refuse "section left open" 'case\.prm:[0-9]+: subsection .*"end".*' pile case.pr
 refuse "key given twice" 'case\.prm:[0-9]+: Pile/diameter = 2 mm: already set in line [0-9]+\. .*' \
   pile case.prm --output out
 
+# A case of another job: job, the job of the case, its file.
+mkdir begun
+while read -r job of file; do
+  refuse "a case of $of for $job" ".*$file\.prm: is a case of mergel $of, not of mergel $job\. Run .mergel $of .*$file\.prm.\." \
+    "$job" "$root/apps/cases/$file.prm" --output out
+  cp "$root/apps/cases/$file.prm" begun/resolved.prm
+  refuse "a folder of $of for $job" "begun/resolved\.prm: is a case of mergel $of, not of mergel $job\. Run .mergel $of --restart begun.\." \
+    "$job" --restart begun
+done <<'CASES'
+element pile pile_small
+triaxial pile pile_small
+pile element element_small
+brazilian element element_small
+bond triaxial triaxial_small
+element triaxial triaxial_small
+triaxial brazilian brazilian_small
+pile brazilian brazilian_small
+sample bond bond_fig5a
+element bond bond_fig5a
+CASES
+
 ## values that contradict each other; the message names a key and its place
 place='((good\.prm(:[0-9]+)?: )|--set )'
 refuse_set "porosity that particles cannot reach" "${place}Specimen/porosity = 0\.2: .*" \
@@ -217,7 +238,7 @@ for job in element triaxial; do
 done
 refuse "a cell pressure without a membrane" '.*triaxial_small\.prm:[0-9]+: Loading/stage 1 = .*needs a membrane.*' \
   sample "$root/apps/cases/triaxial_small.prm" --output out --set "Membrane/membrane=false"
-refuse "a specimen of two particles" '.*bond_fig5a\.prm:[0-9]+: unknown section "Particles".*' \
+refuse "a specimen of two particles" '.*bond_fig5a\.prm: is a case of mergel bond, not of mergel sample\. .*' \
   sample "$root/apps/cases/bond_fig5a.prm" --output out
 edited case.prm '/set symmetry/d;/set diameter .*10 mm/d;/set height/d'
 refuse "a pile in a periodic box" '--set Specimen/shape = periodic box: .*half cylinder.*' \
