@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 namespace mergel::dem {
@@ -43,6 +44,17 @@ char separator_of(std::string_view headings)
   for (const char separator : {';', '\t'})
     if (headings.find(separator) != std::string_view::npos) return separator;
   return ',';
+}
+
+/// The separator that a spreadsheet names in a first line "sep=;"; nothing in any other line.
+std::optional<char> named_separator(std::string_view line)
+{
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  const bool names_one =
+      line.size() == 5 && (line.starts_with("sep=") || line.starts_with("SEP="));
+  if (!names_one || std::string_view(",;\t").find(line.back()) == std::string_view::npos)
+    return {};
+  return line.back();
 }
 
 /// "tip force [N]" -> name "tip force", unit "N".
@@ -91,8 +103,32 @@ std::string quoted_names(const Table& table)
 {
   std::string names;
   for (const TableColumn& c : table.columns)
-    names += (names.empty() ? "'" : ", '") + shown(c.name + " [" + c.unit + "]") + "'";
+    names += (names.empty() ? "'" : ", '") +
+             shown(c.name + (c.unit.empty() ? "" : " [" + c.unit + "]")) + "'";
   return names;
+}
+
+bool is_same_but_for_capitals(std::string_view a, std::string_view b)
+{
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; };
+  return a.size() == b.size() &&
+         std::equal(a.begin(), a.end(), b.begin(),
+                    [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+const char* const separators = "Commas, semicolons or tabs separate columns";
+
+/// The likely cause of a missing column; "" for none.
+std::string likely_cause(const Table& table, std::string_view name)
+{
+  for (const TableColumn& c : table.columns) {
+    if (c.unit.empty() && c.name.ends_with(')') && c.name.starts_with(name))
+      return " Units stand in square brackets, as in 'u_n [m]'.";
+    if (c.name != name && is_same_but_for_capitals(c.name, name)) return " Capitals count.";
+  }
+  if (table.columns.size() == 1 && table.columns[0].name.find(' ') != std::string::npos)
+    return " " + std::string(separators) + ", blanks do not.";
+  return "";
 }
 
 const TableColumn* find(const Table& table, std::string_view name)
@@ -115,7 +151,7 @@ const std::vector<double>& Table::column(std::string_view name, std::string_view
   const TableColumn* found = find(*this, name);
   require(found != nullptr && found->unit == unit,
           file.string() + ": no column '" + std::string(name) + " [" + std::string(unit) +
-              "]'; there are " + quoted_names(*this) + ".");
+              "]'; there are " + quoted_names(*this) + "." + likely_cause(*this, name));
   return found->values;
 }
 
@@ -163,6 +199,7 @@ Table read_table(const std::filesystem::path& file, LastLine last)
   table.file = file;
   std::string line;
   char separator = ',';
+  std::optional<char> named; // by a line "sep=;"
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     const std::string where = file.string() + ":" + std::to_string(number) + ": ";
     const bool is_complete = !in.eof(); // getline stopped at a newline
@@ -172,7 +209,13 @@ Table read_table(const std::filesystem::path& file, LastLine last)
       continue;
     }
 
-    if (table.columns.empty()) separator = separator_of(line);
+    if (table.columns.empty()) {
+      if (const auto of_spreadsheet = named_separator(line)) {
+        named = of_spreadsheet;
+        continue;
+      }
+      separator = named.value_or(separator_of(line));
+    }
     const auto cells = split(line, separator);
     if (table.columns.empty()) {
       for (const std::string_view cell : cells) {
@@ -188,6 +231,9 @@ Table read_table(const std::filesystem::path& file, LastLine last)
       table.is_last_line_cut = true;
       continue;
     }
+    const bool is_blank = std::all_of(cells.begin(), cells.end(),
+                                      [](std::string_view cell) { return cell.empty(); });
+    if (is_blank) continue; // a spreadsheet's empty row
     require(cells.size() == table.columns.size(),
             where + std::to_string(cells.size()) + " values under " +
                 std::to_string(table.columns.size()) + " headings, separated by " +
@@ -196,7 +242,10 @@ Table read_table(const std::filesystem::path& file, LastLine last)
       double value = 0.0;
       require(parse(std::string(cells[c]), separator, value),
               where + "'" + shown(cells[c]) + "' under '" + shown(table.columns[c].name) +
-                  "' is not a number.");
+                  "' is not a number." +
+                  (cells.size() == 1 && cells[c].find_first_of(" \t") != std::string::npos
+                       ? " " + std::string(separators) + ", blanks do not."
+                       : std::string()));
       table.columns[c].values.push_back(value);
     }
     ++table.n_rows;

@@ -53,8 +53,9 @@ enum class LastLine {
 };
 
 /// Read a table. Lines that begin with # are remarks. Commas, semicolons or tabs separate the
-/// columns: what the line of headings has of them, semicolons first, then tabs. Where it is not
-/// commas, a number may have a decimal comma.
+/// columns: what a first line "sep=;" names, else what the line of headings has of them,
+/// semicolons first, then tabs. Where it is not commas, a number may have a decimal comma. A line
+/// of separators only is left out, as an empty one is.
 /// @throws InputError naming file and line: file not readable, no record, a line with too
 ///   few or too many values, a value that is no number, two columns with one name
 Table read_table(const std::filesystem::path& file, LastLine last = LastLine::may_be_cut);

@@ -86,6 +86,29 @@ TEST_CASE("a missing column is refused, and a wrong unit with the unit found",
                         mergel::match::Contains("'q_c [MPa]'"));
 }
 
+TEST_CASE("a missing column is refused with its likely cause", "[unit][dem]")
+{
+  const auto refusal = [](const std::string& contents) -> std::string {
+    const File file(contents);
+    try {
+      read_table(file.path).column("u_n", "m");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK_THAT(refusal("u_n (m),s [m]\n0,1\n"),
+             mergel::match::Contains("'u_n (m)', 's [m]'. Units stand in square brackets"));
+  CHECK_THAT(refusal("U_N [m],s [m]\n0,1\n"),
+             mergel::match::Contains("'U_N [m]', 's [m]'. Capitals count."));
+  CHECK_THAT(refusal("u_n [m] s [m]\n0\n"),
+             mergel::match::Contains("Commas, semicolons or tabs separate columns"));
+  CHECK_THAT(refusal("u_n [m] s [m]\n0 1\n"),
+             mergel::match::Contains("'0 1' under 'u_n [m] s' is not a number. Commas, "
+                                     "semicolons or tabs separate columns"));
+  CHECK_THAT(refusal("t [s],s [m]\n0,1\n"), mergel::match::EndsWith("'s [m]'."));
+}
+
 TEST_CASE("the line a run is still writing is left out and reported", "[unit][dem]")
 {
   // "1.2" may be the beginning of "1.25": a line without its end is never trusted.
@@ -123,7 +146,10 @@ TEST_CASE("a table is the same whatever program wrote it", "[unit][dem]")
        {"u [mm],s [m]\n0,1\n0.5,-2e-3\n",
         "\xEF\xBB\xBFu [mm],s [m]\r\n0,1\r\n0.5,-2e-3\r\n",
         "u [mm],s [m]\r0,1\r0.5,-2e-3\r", "u [mm];s [m]\r\n0;+1\r\n0,5;-2e-3\r\n",
-        "u [mm]\ts [m]\n0\t1\n0,5\t-2e-3\n"}) {
+        "u [mm]\ts [m]\n0\t1\n0,5\t-2e-3\n",
+        "sep=;\r\nu [mm];s [m]\r\n0;1\r\n0,5;-2e-3\r\n;\r\n;\r\n",
+        "sep=,\nu [mm],s [m]\n0,1\n , \n0.5,-2e-3\n",
+        "sep=\t\nu [mm]\ts [m]\n0\t1\n0,5\t-2e-3\n"}) {
     CAPTURE(text);
     const File file(text);
     const Table table = read_table(file.path, LastLine::whole);
