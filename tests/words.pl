@@ -53,6 +53,8 @@ my %allowed = (
   'CHANGELOG.md' => qr/./,         # tells the old names
   'tests/gates/plant.sh' => qr/planted/,
   'tests/program/bad_input.sh' => qr/^(?:pile|element|bond)\|/, # former keys
+  'apps/view/options.cc' => qr/--leg/, # a former option
+  'tests/program/view_element.sh' => qr/--leg/,
   'CONTRIBUTING.md' => qr/^\|/,   # its table of words
   'tests/bench/yade_w1.py' => qr/\b(?:body|bodies)\b/, # names of YADE
 );

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <string_view>
 
 namespace mergel::apps {
 
@@ -25,8 +26,23 @@ PictureSize parse_size(const std::string& text)
 
 } // namespace
 
+namespace {
+
+/// @throws InputError with the present name of an option that was renamed
+void refuse_former_names(int argc, char** argv)
+{
+  for (int k = 1; k < argc; ++k) {
+    const std::string_view word = argv[k];
+    require(word != "--leg" && !word.starts_with("--leg="),
+            "--leg is now --stage, with the numbers of the case. See mergel-view --help.");
+  }
+}
+
+} // namespace
+
 std::optional<Options> read_options(int argc, char** argv, int& code)
 {
+  refuse_former_names(argc, argv);
   Options options;
   std::string size_text = "1600x1200";
   CLI::App app(

@@ -101,6 +101,8 @@ refused() {
     fail "wanted \"$what\", exit 1: $code $(cat log)"
 }
 refused 'sheared holds an element run and pile a pile run' sheared pile
+refused '--leg is now --stage' sheared --leg 2
+refused '--leg is now --stage' sheared --leg=2-3
 refused '--stage 3-1: must be the number' sheared --stage 3-1
 refused 'no record of stage 3; the last is 2' sheared --stage 3
 refused '--stage 1: is for element and triaxial runs' pile --stage 1
