@@ -21,10 +21,10 @@ CaseJob job_of_case(const CaseScan& scan, const std::vector<std::string>& set)
   }
 
   if (has("Particles")) return CaseJob::bond;
-  if (has("Pile") || shape == "half cylinder") return CaseJob::pile;
+  if (has("Pile") || has("Far field") || shape == "half cylinder") return CaseJob::pile;
   if (has("Plates") || has_velocity) return CaseJob::brazilian;
   if (has("Membrane") || has("Platens")) return CaseJob::triaxial;
-  if (!has("Loading")) return CaseJob::sample;
+  if (!has("Loading") || !has("Specimen")) return CaseJob::sample;
   const bool is_round = shape.empty() ? has_diameter : shape == "cylinder";
   return is_round ? CaseJob::triaxial : CaseJob::element;
 }

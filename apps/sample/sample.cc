@@ -176,14 +176,17 @@ void make(const JobOptions& options)
 void help_sample(std::ostream& out)
 {
   out << "A case of mergel pile, element, triaxial or brazilian serves here as it is: the "
-         "specimen of\nthat job is made, that of a pile inside the walls of its run. A "
-         "section Pile, or `shape =\nhalf cylinder`, tells a case of pile; a section "
-         "Plates, "
-         "or `Loading/velocity`, one of brazilian;\na section Membrane or Platens one of "
-         "triaxial; a section Loading one of triaxial for a cylinder,\none of element for "
-         "a "
-         "periodic box. Each job lists its keys by --help. The keys below are those of all "
-         "other cases.\n\n";
+         "specimen "
+         "of\nthat job is made, that of a pile inside the walls of its run. A section Pile "
+         "or "
+         "Far field, or\n`shape = half cylinder`, tells a case of pile; a section Plates, "
+         "or "
+         "`Loading/velocity`, one of\nbrazilian; a section Membrane or Platens one of "
+         "triaxial; "
+         "a section Loading one of triaxial for\na cylinder, one of element for a periodic "
+         "box. "
+         "Each job lists its keys by --help. The keys below\nare those of all other "
+         "cases.\n\n";
 }
 
 void keys_of_sample(const UseKeys& use)

@@ -57,5 +57,9 @@ TEST_CASE("The job of a case follows from sections, shape and keys", "[unit][app
         CaseJob::brazilian);
   CHECK(job(specimen("diameter = 5 mm") + loading, {"Loading/velocity=1 mm/s"}) ==
         CaseJob::brazilian);
+  // A section written wrongly does not make a case one of another job.
+  CHECK(job(specimen("diameter = 5 mm") + "subsection Far field\nend\n" + loading) ==
+        CaseJob::pile);
+  CHECK(job(loading) == CaseJob::sample);
   CHECK(job("subsection Pile\nend\n", {"Specimen/shape=cylinder"}) == CaseJob::pile);
 }
