@@ -14,6 +14,15 @@ std::string shortest(double value)
   return {text.data(), end};
 }
 
+std::string rounded(double value)
+{
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::general, 6)
+                       .ptr;
+  return {text.data(), end};
+}
+
 std::string plain_text(std::string content)
 {
   if (content.starts_with("\xFF\xFE") || content.starts_with("\xFE\xFF"))

@@ -136,10 +136,10 @@ std::string fault(const BondCase& c, const dem::RelativeMotion& at)
   if (!std::isfinite(at.u_n) || !std::isfinite(at.u_s) || !std::isfinite(at.theta))
     return "every motion must be a finite number";
   if (c.gap + at.u_n < -0.5 * r)
-    return "u_n = " + dem::shortest(at.u_n) +
+    return "u_n = " + dem::rounded(at.u_n) +
            " m makes the particles overlap by more than half of the smaller radius: must "
            "be at least " +
-           dem::shortest(-0.5 * r - c.gap) + " m";
+           dem::rounded(-0.5 * r - c.gap) + " m";
   if (std::abs(at.u_n) > most_radii * r || std::abs(at.u_s) > most_radii * r)
     return "a displacement exceeds 1000 radii: is its unit m?";
   if (std::abs(at.theta) > most_radians) return "theta exceeds 1000 rad: is its unit rad?";

@@ -150,7 +150,7 @@ void complete(CaseFile& file, CoupledCase& c)
     file.refuse("Specimen", "shape",
                 "the far field takes a cylinder or half of one: use `half cylinder`, or "
                 "`cylinder` for the full model");
-  const auto mm = [](double x) { return dem::shortest(1e3 * x) + " mm"; };
+  const auto mm = [](double x) { return dem::rounded(1e3 * x) + " mm"; };
   if (c.diameter >= f.chamber_diameter)
     file.refuse(
         "Specimen", "diameter",

@@ -152,7 +152,13 @@ void refuse_impossible(const CaseFile& file, const BondKeys& bond,
   const dem::BondLaw law = bond.chosen();
   const dem::ContactLaw far = contact.chosen();
   const double E = dem::section(law).E, strength = tensile_strength(law);
-  // A strength of some moduli is a bond that does not break, and meant so.
+  // A strength of some moduli is a bond that does not break, and meant so. Of two that are too
+  // far apart the one is wrong that no rock has.
+  constexpr double softest_rock = 1e6; // [Pa]
+  if (strength > impossible_ratio * E && E >= softest_rock)
+    file.refuse("Bond", "tensile strength",
+                "is more than a million times the modulus of the bonds, " + in_mpa(E) +
+                    ". Is the unit right?");
   if (strength > impossible_ratio * E)
     file.refuse("Bond", "effective modulus",
                 "is less than a millionth of the tensile strength of the bond, " +

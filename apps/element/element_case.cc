@@ -95,9 +95,9 @@ void check_size(const CaseFile& file, const ElementCase& c)
   // A confined cell is a little smaller, and the limit is checked only at the records.
   if (0.99 * edge * (1.0 - c.strain_limit - c.record_every) < smallest)
     file.refuse("Loading", "strain limit",
-                "the cell, whose smallest edge is " + dem::shortest(1e3 * edge) +
+                "the cell, whose smallest edge is " + dem::rounded(1e3 * edge) +
                     " mm, would become shorter than its largest particles allow, " +
-                    dem::shortest(1e3 * smallest) +
+                    dem::rounded(1e3 * smallest) +
                     " mm: lower the limit, or take a larger cell");
 }
 

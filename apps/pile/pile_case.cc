@@ -172,7 +172,7 @@ void declare(CaseFile& file, PileCase& c)
 void complete(CaseFile& file, PileCase& c)
 {
   complete(file, c.assembly);
-  const auto mm = [](double x) { return dem::shortest(1e3 * x) + " mm"; };
+  const auto mm = [](double x) { return dem::rounded(1e3 * x) + " mm"; };
   if (c.diameter >= c.assembly.diameter)
     file.refuse(
         "Pile", "diameter",

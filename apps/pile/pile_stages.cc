@@ -3,6 +3,7 @@
 #include "apps/case/units.h"
 #include "apps/case/words.h"
 #include "dem/error.h"
+#include "dem/text.h"
 
 #include <algorithm>
 #include <array>
@@ -124,7 +125,7 @@ namespace {
 
 std::string mm(double x)
 {
-  return with_unit(x, "m", "mm");
+  return dem::rounded(1e3 * x) + " mm";
 }
 
 /// What is known of a pile before the run.
@@ -142,7 +143,7 @@ std::string fault_of_penetration(const PileStage& s, const Known& now,
   if (tip + limits.diameter > limits.height)
     return "the tip would reach " + mm(tip) +
            ", less than a diameter above the floor of the DEM region at " +
-           mm(limits.height) + "; lower it or raise `Specimen/height`";
+           mm(limits.height) + "; give a smaller depth, or raise `Specimen/height`";
   if (!now.before) {
     if (tip > 0.0) return "";
     return "the pile starts with its tip at the surface: the depth of the shoulder must be "
@@ -171,7 +172,7 @@ std::string fault_of_force(const PileStage& s, const Known& now)
   if (!now.force) return "";
   const bool is_load = s.kind == Kind::load;
   if (is_load ? s.target > *now.force : s.target < *now.force) return "";
-  return "the head force is " + with_unit(*now.force, "N") + " after the stage before: " +
+  return "the head force is " + dem::rounded(*now.force) + " N after the stage before: " +
          (is_load ? "a load must be larger; use `unload`"
                   : "an unloading must end below it; use `load`");
 }

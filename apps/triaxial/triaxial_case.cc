@@ -212,7 +212,7 @@ namespace {
 void complete_membrane(CaseFile& file, TriaxialCase& c)
 {
   MembraneKeys& m = c.membrane;
-  const auto mm = [](double x) { return dem::shortest(1e3 * x) + " mm"; };
+  const auto mm = [](double x) { return dem::rounded(1e3 * x) + " mm"; };
   const double d_50 = c.d_50(), p = c.largest_pressure();
   file.derive("Membrane", "Young's modulus",
               p > 0.0 ? p * d_50 / m.material.thickness : latex_modulus);
@@ -225,9 +225,9 @@ void complete_membrane(CaseFile& file, TriaxialCase& c)
   if (m.material.E < smallest_stiffness * holds)
     file.refuse("Membrane", "Young's modulus",
                 "the pores of the surface, of particles of d50 = " + mm(d_50) +
-                    ", would burst the membrane at " + dem::shortest(1e-6 * p) +
-                    " MPa: E t must be " + dem::shortest(1e-3 * p * d_50) +
-                    " kN/m, which is E = " + dem::shortest(1e-6 * holds) +
+                    ", would burst the membrane at " + dem::rounded(1e-6 * p) +
+                    " MPa: E t must be " + dem::rounded(1e-3 * p * d_50) +
+                    " kN/m, which is E = " + dem::rounded(1e-6 * holds) +
                     " MPa at this thickness");
   c.tube = fem::Tube::with_node_distance(0.5 * c.specimen.diameter, -c.specimen.height,
                                          c.specimen.height, m.node_distance);

@@ -254,6 +254,8 @@ refuse_set "a specimen of a pile under pressure" "${place}Specimen/packing = con
 for job in pile check; do
   refuse "a bond in mPa ($job)" '--set Bond/effective modulus = 22\.5 mPa: is less than a millionth of the tensile strength of the bond, 36 MPa\. .*' \
     $job good.prm --set "Bond/effective modulus=22.5 mPa"
+  refuse "a strength beyond rock ($job)" '--set Bond/tensile strength = 1e9 GPa: is more than a million times the modulus of the bonds, .* MPa\. .*' \
+    $job good.prm --set "Bond/tensile strength=1e9 GPa"
   refuse "a contact in mPa ($job)" '--set Contact/effective modulus = 0\.63 mPa: is more than a million times off .*' \
     $job good.prm --set "Contact/effective modulus=0.63 mPa"
   refuse "a far field in mPa ($job)" "--set Far field/Young's modulus = 1\\.1 mPa: is more than a million times off .*" \
