@@ -218,8 +218,11 @@ void CaseFile::Impl::match_override(const CaseEntry& entry)
     throw InputError(place + " = " + entry.value + ": already given by another --set (" +
                      key->value + "). Keep one of the two.");
   for (CaseKey* same : find_all(entry.section, entry.key)) {
-    same->is_override = true;
-    same->value = entry.value;
+    // An empty text is a value; a number or a choice has none, and is as if it was not given.
+    const bool is_unset = entry.value.empty() && !same->is_required && !same->is_text();
+    same->is_override = !is_unset;
+    same->value = is_unset ? same->standard : entry.value;
+    if (is_unset) same->line = 0;
   }
 }
 

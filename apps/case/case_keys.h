@@ -26,6 +26,12 @@ struct CaseKey {
   std::function<std::string(const std::string& text, const std::filesystem::path& base)>
       parse = {};
 
+  /// Whether an empty value is a value.
+  bool is_text() const
+  {
+    return allowed == "text" || allowed == "path" || allowed == "paths";
+  }
+
   std::string section = {};
   std::string choice = {};              ///< the key exists only where this other key of its
   std::vector<std::string> values = {}; ///< section has one of these values; "" for always
@@ -117,7 +123,8 @@ struct CaseFile::Impl {
   /// Refuse unknown sections and keys of the file; set the lines of the others.
   void match_file(const CaseScan& scan);
 
-  /// The same for one --set.
+  /// The same for one --set. An empty value takes back what the file gives to an optional number
+  /// or choice.
   void match_override(const CaseEntry& entry);
 };
 

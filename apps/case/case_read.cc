@@ -1,4 +1,5 @@
 /// Reading a case: the values of its keys, and where each comes from.
+#include "apps/case/case_forms.h"
 #include "apps/case/case_keys.h"
 #include "apps/case/words.h"
 #include "dem/error.h"
@@ -138,6 +139,10 @@ void CaseFile::read(const std::string& text, const std::string& name,
           key.section + "/" + key.name + ": must be given, it has no default. " +
           "Write \"set " + key.name + " = ...\", " + key.write_hint + ".");
     }
+    if (key.value == to_be_given)
+      throw InputError(
+          impl_->place(key) + " = " + key.value + ": is still to be filled in" +
+          (key.write_hint.empty() ? "" : ", " + key.write_hint) + ". " + key.sentence);
     try {
       key.resolved = key.parse(
           key.value, key.line > 0 && !key.is_override ? case_folder : working_folder);
@@ -186,7 +191,8 @@ bool CaseFile::is_override(const std::string& section, const std::string& key) c
 bool CaseFile::is_given(const std::string& section, const std::string& key) const
 {
   const CaseKey& k = impl_->at(section, key);
-  return k.is_active && (k.is_override || k.line > 0);
+  const bool is_empty = k.value.empty() && !k.rule.empty(); // it follows from other keys
+  return k.is_active && !is_empty && (k.is_override || k.line > 0);
 }
 
 } // namespace mergel::apps

@@ -1,5 +1,6 @@
 #include "apps/case/measured_elasticity.h"
 
+#include "apps/case/job_of_case.h"
 #include "dem/error.h"
 #include "dem/io/readable.h"
 
@@ -36,6 +37,14 @@ MeasuredElasticity measured_elasticity(const std::filesystem::path& folder)
                          ? "has no summary.json. Name the results folder of a finished "
                            "`mergel element` test"
                          : "its summary.json cannot be read: " + dem::with_remedy(error));
+  // Platens hold the ends of other specimens: their E and nu are not the rock's.
+  if (const auto resolved = folder / "resolved.prm"; dem::is_readable(resolved)) {
+    const CaseJob job =
+        job_of_case(scan_case(read_case_text(resolved), resolved.string()), {});
+    if (job != CaseJob::element)
+      throw InputError("is a run of mergel " + std::string(name_of(job)) +
+                       ". Name the results folder of a finished `mergel element` test");
+  }
   std::ifstream in(file, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   // A stage is an object without objects in it.

@@ -12,7 +12,8 @@ struct MeasuredElasticity {
 
 /// Those of the first stage in `folder`/summary.json that has both: of compression or
 /// triaxial.
-/// @throws InputError when there is no such file, or no such stage in it
+/// @throws InputError when the folder is one of another job, when there is no such file, or no
+///   such stage in it
 MeasuredElasticity measured_elasticity(const std::filesystem::path& folder);
 
 } // namespace mergel::apps

@@ -198,6 +198,8 @@ double to_si(const std::string& text, const std::string& si_unit)
   const auto [number, unit_name, plain] = split_number(text, expected);
 
   if (si_unit == "1") {
+    if (unit_name == "%")
+      if (const auto value = shifted(number, -2)) return *value;
     if (!unit_name.empty())
       throw InputError("\"" + std::string(unit_name) + "\" after the number; expected " +
                        expected);

@@ -2,6 +2,7 @@
 /// complete.
 #include "apps/brazilian/brazilian_output.h"
 #include "apps/case/case_scan.h"
+#include "apps/case/job_of_case.h"
 #include "apps/element/element_output.h"
 #include "apps/element/element_pictures.h"
 #include "apps/pile/pile_output.h"
@@ -337,6 +338,13 @@ int run_info(const fs::path& path)
     if (as_checkpoint.empty()) return;
     as_sample = fault([&] { describe_sample(path); });
     if (as_sample.empty()) return;
+    CaseScan scan;
+    const bool is_text =
+        fault([&] { scan = scan_case(read_case_text(path), path.string()); }).empty();
+    if (is_text && !scan.sections.empty())
+      throw InputError("mergel info " + path.string() + ": is a case of mergel " +
+                       name_of(job_of_case(scan, {})) + ". `mergel check " +
+                       in_shell(path.string()) + "` reads it.");
     const bool is_sample = as_checkpoint.starts_with("is no checkpoint, or") &&
                            !as_sample.starts_with("is no sample");
     throw InputError("mergel info " + path.string() + ": " +

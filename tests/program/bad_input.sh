@@ -95,6 +95,8 @@ sample bond bond_fig5a
 element bond bond_fig5a
 CASES
 
+refuse "a case for info" 'mergel info good\.prm: is a case of mergel pile\. `mergel check good\.prm` reads it\.' info good.prm
+
 ## values that contradict each other; the message names a key and its place
 place='((good\.prm(:[0-9]+)?: )|--set )'
 refuse_set "porosity that particles cannot reach" "${place}Specimen/porosity = 0\.2: .*" \

@@ -81,7 +81,8 @@ TEST_CASE("A template is refused until its required values are filled in, and th
                        Contains("# set modulus =   # default: 2 E") &&
                        Contains("# set exponent = 0.5") && Contains("set shape = round"));
   write("case.prm", text);
-  CHECK_THROWS_WITH(file.read("case.prm"), Contains("Pile/diameter = REQUIRED"));
+  CHECK_THROWS_WITH(file.read("case.prm"),
+                    Contains("Pile/diameter = REQUIRED: is still to be filled in"));
   write("case.prm", replaced(text, "= REQUIRED", "= 2 mm"));
   file.read("case.prm");
   CHECK(kinds.diameter == 2e-3);

@@ -236,6 +236,24 @@ TEST_CASE("A path that is not a case file is refused", "[unit][apps]")
   }
 }
 
+TEST_CASE("An empty --set takes back an optional number, and makes an optional text empty",
+          "[unit][apps]")
+{
+  const WorkingFolder folder;
+  write("pile.prm", good);
+  Case c;
+  CaseFile file;
+  c.declare(file);
+  file.read("pile.prm", {"Far field/Poisson ratio=", "Far field/side=", "Pile/title="});
+  CHECK(c.nu == 0.14);
+  CHECK(c.side == "free");
+  CHECK(c.title.empty());
+  CHECK_FALSE(file.is_given("Far field", "Poisson ratio"));
+  CHECK(file.is_given("Pile", "title"));
+  CHECK_THROWS_WITH(file.read("pile.prm", {"Pile/diameter="}),
+                    Contains("--set Pile/diameter = : no value is given"));
+}
+
 TEST_CASE("where() names the line, --set or the default of a key", "[unit][apps]")
 {
   const WorkingFolder folder;

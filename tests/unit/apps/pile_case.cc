@@ -208,6 +208,11 @@ TEST_CASE("the far field takes E and nu from the results of an element test, unl
   using mergel::match::Contains;
   CHECK_THAT(refused(""), Contains("Far field/Young's modulus: must be given, or "
                                    "`elasticity from` names the results folder"));
+  std::ofstream(test / "resolved.prm") << "subsection Platens\nend\n";
+  CHECK_THAT(refused(from), Contains("is a run of mergel triaxial. Name the results"));
+  std::ofstream(test / "resolved.prm")
+      << "subsection Specimen\nend\nsubsection Loading\nend\n";
+  CHECK(read_text_of(text + from).assembly.far_field.E == 1.05e9);
   std::filesystem::remove(test / "summary.json");
   CHECK_THAT(refused(from),
              Contains("Far field/elasticity from = ") && Contains("has no summary.json"));

@@ -76,7 +76,8 @@ TEST_CASE("What is not a number with the right unit is refused, with the reason"
   CHECK_THAT(message("60 Hz", "rad/s"), Contains("wrong dimension"));
   CHECK(message("0.3 rad", "1") ==
         "\"rad\" after the number; expected a plain number, for example 0.3");
-  CHECK_THAT(message("52 %", "1"), Contains("expected a plain number"));
+  CHECK_THAT(message("52 percent", "1"), Contains("expected a plain number"));
+  CHECK(to_si("52 %", "1") == 0.52);
 }
 
 TEST_CASE("with_unit() writes the fewest digits and the unit asked for", "[unit][apps]")
