@@ -3,6 +3,8 @@
 #include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
 
+#include <cmath>
+
 using namespace mergel;
 using namespace mergel::dem;
 
