@@ -122,7 +122,8 @@ void Installation::save(dem::State& state) const
   dem::save_counts(state, "stages", counts_of_position(position_));
   dem::save_numbers(state, "pile_numbers", numbers_of(*this));
   dem::save_counts(state, "pile_counts", counts_of(*this));
-  state.add_common<double>(closest_break, {breakage_.to_far_field});
+  if (std::isfinite(breakage_.to_far_field)) // else no bond has broken
+    state.add_common<double>(closest_break, {breakage_.to_far_field});
   dem::save_numbers(state, "stage_numbers", StageRun::numbers_of(stage_run_));
   dem::save_counts(state, "stage_counts", StageRun::counts_of(stage_run_));
 }
@@ -145,7 +146,7 @@ void Installation::load(const dem::State& state)
 {
   dem::load_numbers(state, "pile_numbers", numbers_of(*this));
   dem::load_counts(state, "pile_counts", counts_of(*this));
-  if (state.has(closest_break)) // older checkpoints do not have it
+  if (state.has(closest_break)) // not before a bond broke, nor in earlier versions
     breakage_.to_far_field = state.get_rows<double>(closest_break, 1).front();
   dem::load_numbers(state, "stage_numbers", StageRun::numbers_of(stage_run_));
   dem::load_counts(state, "stage_counts", StageRun::counts_of(stage_run_));
