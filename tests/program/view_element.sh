@@ -19,7 +19,7 @@ fail() { echo "FAILED: $*"; exit 1; }
 history() {
   mkdir -p "$1"
   awk -v Q="$2" 'BEGIN {
-    OFS = ","
+    OFS = ","; OFMT = "%.17g" # a stage counts from one start to round-off
     print "time [s],stage [-],axial strain [-],volumetric strain [-],axial strain of the stage [-],volumetric strain of the stage [-],p [Pa],q [Pa],void ratio [-]"
     for (k = 0; k < 40; ++k) {
       second = k >= 20; a = 1e-3 * k; v = 2e-3 * k
