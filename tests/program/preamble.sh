@@ -90,16 +90,19 @@ signal_ranks() { kill -"$1" "$launched" 2>/dev/null && { pkill -"$1" -P "$launch
 
 # wait_for CONDITION...: until it holds, as long as $launched runs. The run stands still while the condition is
 # looked at: a look takes longer than a small run where the machine is busy, and the run must be under way after.
+# Between two looks it goes on for a fifth of the time that it has had, so that a long run is not held up.
 wait_for()
 {
-  local holds
+  local holds slice=20 seconds # slice [ms]
   while :; do
     signal_ranks STOP || { "$@" && return; fail "it ended before \"$*\": $(tail -3 log)"; }
     holds=no
     if "$@"; then holds=yes; fi
     signal_ranks CONT || true
     [ $holds = no ] || return 0
-    sleep 0.02
+    printf -v seconds '%d.%03d' $((slice / 1000)) $((slice % 1000))
+    sleep "$seconds"
+    slice=$((slice < 500 ? slice + (slice + 4) / 5 : 500))
   done
 }
 exists() { compgen -G "$1" >/dev/null; } # a file of this pattern
