@@ -26,8 +26,7 @@ stopped() {
   local n_ranks=$1 n_lines=$2 code=0
   shift 2
   launch mpirun --oversubscribe -n "$n_ranks" "$mergel" element "$@" >log 2>&1
-  wait_for has_lines "$n_lines"
-  kill -TERM "$(last_rank)"
+  signal_when TERM has_lines "$n_lines"
   wait $launched || code=$?
   [ "$code" -eq 2 ] && grep -q 'stopped by SIGTERM at step .* (stage .*), checkpoint a/checkpoint_' log ||
     fail "SIGTERM on $n_ranks ranks: exit code $code: $(cat log)"
@@ -50,8 +49,7 @@ stopped_in() {
   local part=$1 code=0
   shift
   launch "$mergel" element "$@" >log 2>&1
-  wait_for part_is_under_way "$part"
-  kill -TERM "$launched"
+  signal_when TERM part_is_under_way "$part"
   wait $launched || code=$?
   [ "$code" -eq 2 ] && grep -q "stopped by SIGTERM at step .* (stage [34]" log || fail "stopped in part $part: $code $(cat log)"
 }

@@ -90,21 +90,29 @@ signal_ranks() { kill -"$1" "$launched" 2>/dev/null && { pkill -"$1" -P "$launch
 
 # wait_for CONDITION...: until it holds, as long as $launched runs. The run stands still while the condition is
 # looked at: a look takes longer than a small run where the machine is busy, and the run must be under way after.
-# Between two looks it goes on for a fifth of the time that it has had, so that a long run is not held up.
+# Between two looks it goes on for 20 ms, and for 300 ms once it has had two seconds.
 wait_for()
 {
-  local holds slice=20 seconds # slice [ms]
+  local holds n_looks=0
   while :; do
     signal_ranks STOP || { "$@" && return; fail "it ended before \"$*\": $(tail -3 log)"; }
     holds=no
     if "$@"; then holds=yes; fi
+    [ $holds = no ] || [ -z "${to_send:-}" ] || kill -"$to_send" "$(target)" || true
     signal_ranks CONT || true
     [ $holds = no ] || return 0
-    printf -v seconds '%d.%03d' $((slice / 1000)) $((slice % 1000))
-    sleep "$seconds"
-    slice=$((slice < 500 ? slice + (slice + 4) / 5 : 500))
+    n_looks=$((n_looks + 1))
+    if [ $n_looks -lt 100 ]; then sleep 0.02; else sleep 0.3; fi
   done
 }
+# signal_when SIGNAL CONDITION...: wait for it, and send the signal before the run goes on: to the last rank.
+signal_when()
+{
+  local to_send=$1
+  shift
+  wait_for "$@"
+}
+target() { local rank; rank=$(last_rank || true); echo "${rank:-$launched}"; }
 exists() { compgen -G "$1" >/dev/null; } # a file of this pattern
 
 # The last rank that $launched, an mpirun, has started.

@@ -8,7 +8,7 @@
 . "$(dirname "$0")/preamble.sh"
 case_file=$root/apps/cases/element_small.prm
 tiny=(--set "Specimen/edge x=3.5 mm" --set "Specimen/edge y=3.5 mm" --set "Specimen/edge z=3.5 mm"
-  --set "Loading/stage 1=isotropic to p = 0.4 MPa" --set "Loading/stage 2=triaxial to axial strain = 0.2 %"
+  --set "Loading/stage 1=isotropic to p = 0.4 MPa" --set "Loading/stage 2=triaxial to axial strain = 1 %"
   --set "Loading/stage 3=" --set "Loading/stage 4=")
 has_lines() { [ "$(cat "$1/history.csv" 2>/dev/null | wc -l)" -ge "$2" ]; }
 # Without job control a shell lets its background jobs ignore SIGINT.
@@ -23,8 +23,7 @@ bounded "$mergel" element "$case_file" "${tiny[@]}" --output whole >log || fail 
 
 for signal in TERM INT HUP PIPE; do
   begin "$signal"
-  wait_for has_lines "$signal" 4
-  kill -"$signal" $launched
+  signal_when "$signal" has_lines "$signal" 4
   code=0; wait $launched || code=$?
   if [ "$signal" = PIPE ]; then # not a request to end
     [ "$code" -eq 0 ] || fail "SIGPIPE: exit code $code: $(tail -3 log)"
@@ -40,8 +39,7 @@ done
 
 # On two ranks, of which one gets the signal.
 launch env --default-signal=INT,HUP mpirun --oversubscribe -n 2 "$mergel" element "$case_file" "${tiny[@]}" --output two >log 2>&1
-wait_for has_lines two 4
-kill -HUP "$(last_rank)"
+signal_when HUP has_lines two 4
 code=0; wait $launched || code=$?
 [ "$code" -eq 2 ] && [ "$(grep -c 'stopped by SIGHUP at step' log)" -eq 1 ] || fail "SIGHUP on two ranks: exit code $code: $(tail -3 log)"
 bounded "$mergel" element --restart two >log || fail "SIGHUP on two ranks, continued: $(tail -3 log)"
@@ -49,8 +47,7 @@ same two
 
 # nohup: the closed terminal ends nothing.
 launch nohup "$mergel" element "$case_file" "${tiny[@]}" --output nohup >log 2>&1
-wait_for has_lines nohup 4
-kill -HUP $launched
+signal_when HUP has_lines nohup 4
 wait $launched || fail "nohup: $(tail -3 log)"
 same nohup
 
