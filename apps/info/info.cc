@@ -3,6 +3,7 @@
 #include "apps/brazilian/brazilian_output.h"
 #include "apps/case/case_scan.h"
 #include "apps/case/job_of_case.h"
+#include "apps/case/words.h"
 #include "apps/element/element_output.h"
 #include "apps/element/element_pictures.h"
 #include "apps/pile/pile_output.h"

@@ -233,10 +233,10 @@ void PileProfiles::find_states(const ProfileFrame& frame, const dem::SectionSums
     for (int column = 0; column < grid.n_columns(); ++column) {
       const double r = std::abs(grid.r_middle(column)), z = grid.z_middle(row);
       if (z > -D_ || r > farthest * D_) continue;
-      if (!sums.has_value(column, row, PileContinuum::reach)) continue;
-      const dem::SectionSum window = sums.window(column, row, PileContinuum::reach);
-      if (2.0 * window.largest_R > w) continue; // forces of single particles, no stress
-      if (const double tension = -dem::SectionSums::average(window).principal().minor;
+      const auto window = sums.filled_window(column, row, PileContinuum::reach);
+      if (!window) continue;
+      if (2.0 * window->largest_R > w) continue; // forces of single particles, no stress
+      if (const double tension = -dem::SectionSums::average(*window).principal().minor;
           tension > found_.tension.stress)
         found_.tension = {tension, r, z - z_tip};
     }

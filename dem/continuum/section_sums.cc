@@ -167,6 +167,13 @@ bool SectionSums::is_in_pile(double r, double z) const
   return pile_ && std::abs(r) < radius_at(*pile_, z - z_pile_);
 }
 
+std::optional<SectionSum> SectionSums::filled_window(int column, int row, int reach) const
+{
+  if (is_in_pile(grid_.r_middle(column), grid_.z_middle(row))) return {};
+  const SectionSum sum = window(column, row, reach);
+  return is_filled(sum) ? std::optional(sum) : std::nullopt;
+}
+
 SectionSum SectionSums::window(int column, int row, int reach) const
 {
   SectionSum sum;

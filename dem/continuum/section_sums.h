@@ -83,14 +83,10 @@ public:
   /// Whether the point at this distance from the axis, on either side, and height lies in the
   /// pile [m].
   bool is_in_pile(double r, double z) const;
-  /// Whether the middle of the cell lies outside the pile, and the window around it is filled. A
+  /// The window around a cell whose middle lies outside the pile, where there is rock in it. A
   /// window around a point of the pile may reach out of it by a sliver: a force over hardly any
   /// volume.
-  bool has_value(int column, int row, int reach) const
-  {
-    return !is_in_pile(grid_.r_middle(column), grid_.z_middle(row)) &&
-           is_filled(window(column, row, reach));
-  }
+  std::optional<SectionSum> filled_window(int column, int row, int reach) const;
   /// Whether there is rock in the window.
   static bool is_filled(const SectionSum& sum)
   {

@@ -81,8 +81,8 @@ void write_section(const std::filesystem::path& file, const SectionSums& sums, i
   SectionFields fields;
   for (int row = 0; row < grid.n_z; ++row)
     for (int column = 0; column < grid.n_columns(); ++column)
-      if (sums.has_value(column, row, reach))
-        fields.add(SectionSums::average(sums.window(column, row, reach)));
+      if (const auto window = sums.filled_window(column, row, reach))
+        fields.add(SectionSums::average(*window));
       else
         fields.add_nothing();
   PointGrid points;

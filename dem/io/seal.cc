@@ -106,11 +106,7 @@ std::string seal_block(std::string_view bytes, const Seal& seal)
 bool begins_as_sealed(const std::filesystem::path& file, std::string_view kind)
 {
   const std::string mark = "mergel " + std::string(kind) + ", ";
-  std::ifstream in(file, std::ios::binary);
-  std::string start(mark.size(), '\0');
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(in.gcount()));
-  return start == mark || start.starts_with(hdf5);
+  return begins_with(file, mark) || begins_with(file, hdf5);
 }
 
 std::string unsealed(const std::filesystem::path& file, const Seal& seal,

@@ -243,8 +243,8 @@ TEST_CASE("A point inside the pile has no value, whatever its window reaches",
   const int row = grid.n_z - 8;                            // around z = -3.25
   const int inside = grid.n_r + 3, outside = grid.n_r + 4; // r = 1.75 and 2.25
   REQUIRE(SectionSums::is_filled(sums.window(inside, row, 1)));
-  CHECK(!sums.has_value(inside, row, 1));
-  CHECK(sums.has_value(outside, row, 1));
+  CHECK(!sums.filled_window(inside, row, 1));
+  CHECK(sums.filled_window(outside, row, 1));
   CHECK(sums.window(outside, row, 1).largest_R == 0.5);
   CHECK(sums.is_in_pile(-1.9, -4.0));
   CHECK(!sums.is_in_pile(1.0, -6.6)); // beside the cone, whose radius there is 0.93
