@@ -109,6 +109,7 @@ dem::NumbersOf<Findings> numbers_of(Findings& f)
       {"exponent of the radial stress [-]", &f.radial.b},
       {"standard error of that exponent [-]", &f.radial.standard_error},
       {"rings of that exponent [-]", &f.rings},
+      {"depth of the shallowest of them [m]", &f.shallowest_ring},
       {"exponent by Chalk ICP-18 [-]", &f.icp18_exponent},
       {"annulus [m]", &f.annulus},
       {"thinning below the tip [-]", &f.thinning},
@@ -127,6 +128,7 @@ dem::NumbersOf<Findings> numbers_of(Findings& f)
 
 constexpr double farthest = 4.0; // from the axis and below the tip, in diameters
 constexpr double damage_of_crushed = 0.5;
+constexpr double loose_depth = 2.0; // of the rings that the fit leaves out, in diameters
 
 } // namespace
 
@@ -246,10 +248,11 @@ void PileProfiles::add_shaft(const ProfileFrame& frame, const dem::SectionSums& 
                              const ShaftStress& shaft)
 {
   const double z_shoulder = frame.z_tip + tip_height_, q_c = shaft.mean_q_c();
-  std::vector<double> h_over_R, radial;
+  std::vector<double> h_over_R, radial, depth;
   for (const RingStress& ring : shaft.mean()) {
     h_over_R.push_back(ring.h / R_);
     radial.push_back(ring.radial);
+    depth.push_back(frame.depth - ring.h);
     const double z = z_shoulder + ring.h, half = 0.5 * shaft.height();
     const auto rock =
         rock_in(sums.between(R_, R_ + frame.averaging_length, z - half, z + half));
@@ -258,8 +261,17 @@ void PileProfiles::add_shaft(const ProfileFrame& frame, const dem::SectionSums& 
                 ring.shear, dem::icp18_end_of_driving(q_c, h_over_R.back()), q_c,
                 rock->damage, rock->porosity, rock->void_ratio(), rock->p(), rock->q()});
   }
+  // Rings lie from the shoulder upwards. Crushed rock near the surface hardly touches the pile.
+  const auto n_deep = static_cast<std::size_t>(std::count_if(
+      depth.begin(), depth.end(), [&](double d) { return d >= loose_depth * D_; }));
+  if (dem::PowerFit{.n = n_deep}.is_there()) {
+    h_over_R.resize(n_deep);
+    radial.resize(n_deep);
+    depth.resize(n_deep);
+  }
   found_.radial = dem::fit_power(h_over_R, radial);
   if (!found_.radial.is_there()) found_.radial = {};
+  found_.shallowest_ring = found_.radial.is_there() ? depth.back() : 0.0;
   found_.rings = static_cast<double>(found_.radial.n);
   found_.icp18_exponent = dem::icp18_exponent(q_c);
 }
@@ -321,9 +333,11 @@ void PileProfiles::summarise(Summary& summary) const
     summary.number("exponent of the radial stress over h/R [-]", f.radial.b);
     summary.number("standard error of that exponent [-]", f.radial.standard_error);
     summary.count("rings of that exponent [-]", f.radial.n);
+    summary.number("depth of the shallowest of them [m]", f.shallowest_ring);
     summary.number("exponent by Chalk ICP-18 [-]", f.icp18_exponent);
     out << "radial stress on the shaft falls with (h/R)^" << f.radial.b << " +- "
-        << f.radial.standard_error << " (" << f.radial.n << " rings)\n";
+        << f.radial.standard_error << " (" << f.radial.n << " rings, the shallowest "
+        << f.shallowest_ring / D_ << " D_p deep)\n";
   }
   if (f.annulus >= 0.0) {
     summary.number("annulus of damage above 0.5 [m]", f.annulus);

@@ -43,6 +43,7 @@ struct ProfileFindings {
   double averaging_length = 0.0, d_50 = 0.0; ///< [m]
   dem::PowerFit radial;                      ///< radial stress over h/R
   double rings = 0.0;                        ///< of that fit, its n [-]
+  double shallowest_ring = 0.0;              ///< of that fit, depth of its middle [m]
   double icp18_exponent = 0.0;               ///< [-]
   double annulus = -1.0;                     ///< its thickness [m]; below 0: no rock there
   /// Beside the shaft a window wide over its whole length; the others a diameter high and wide:
