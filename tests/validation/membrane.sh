@@ -6,12 +6,14 @@
 #   FOLDER  takes specimens, runs and the table membrane.csv; what is there is not run again, what was stopped goes on
 #   NAME    small, mesh_0.17, mesh_0.23, mesh_0.33: `triaxial_small.prm`, and to 5 % on other meshes;
 #           0.5MPa 1MPa 1.5MPa 2.5MPa 4MPa ucs isotropic brazilian: at the paper's size; 1MPa_2 is that of seed 2;
+#           Z4_1MPa Z4_ucs: the same of a rock with a coordination of 4;
 #           table: at S = 8 all of table_base, table_friction_0, table_friction_0.5, table_ends_fixed,
 #           table_spherical_seat, table_carried, table_stiffness_0.7, table_stiffness_2; default: small
-# Environment: RANKS, default 2; STRAIN, of the shearing at the paper's size, default "20 %"; SET, more
-# settings, such as "Loading/wave stress=60 kPa".
+# Environment: RANKS, default 2; S, of the tests at the paper's size, default 5 (8: a quarter of the particles and a
+# seventh of the time); STRAIN, of their shearing, default "20 %"; SET, one more setting of all runs, such as
+# "Loading/wave stress=60 kPa".
 set -euo pipefail
-[ $# -ge 2 ] || { sed -n '2,13s/^# \{0,1\}//p' "$0" >&2; exit 1; }
+[ $# -ge 2 ] || { sed -n '2,15s/^# \{0,1\}//p' "$0" >&2; exit 1; }
 cases=$(cd "$(dirname "$0")/../../apps/cases" && pwd)
 mergel=$(readlink -f "$1")
 mkdir -p "$2"
@@ -34,13 +36,22 @@ run() {
   fi || echo "$name: $(tail -1 "$name.log")"
 }
 
-# specimen SEED S: print its file; made if it does not exist
+# specimen SEED S [Z]: print its file; made if it does not exist
 specimen() {
-  local name=specimen_$1_S$2
+  local name=specimen_$1_S$2${3:+_Z$3}
   [ -s "$name/sample.h5" ] ||
     mpirun -n "${RANKS:-2}" "$mergel" sample "$cases/triaxial_1MPa.prm" --set "Specimen/seed=$1" \
-      --set "Specimen/upscaling ratio=$2" --output "$name" >"$name.log" 2>&1
+      --set "Specimen/upscaling ratio=$2" ${3:+--set "Specimen/coordination=$3"} --output "$name" >"$name.log" 2>&1
   echo "$PWD/$name/sample.h5"
+}
+
+# of_the_paper NAME CASE SEED [SETTING...]: a test of 12 x 24 mm; a name that begins with Z4_ has a coordination of 4
+of_the_paper() {
+  local name=$1 case=$2 seed=$3 Z=
+  shift 3
+  [[ $name != Z4_* ]] || Z=4
+  run triaxial "$name" "$case" "Specimen/upscaling ratio=${S:-5}" ${Z:+"Specimen/coordination=$Z"} \
+    "Specimen/file=$(specimen "$seed" "${S:-5}" $Z)" "$@"
 }
 
 # One thing at a time at S = 8, at 1 MPa to 10 %.
@@ -69,11 +80,12 @@ for name in "$@"; do
     mesh_*) run triaxial "$name" triaxial_small "Membrane/node distance=${name#mesh_} mm" "Loading/stage 2=triaxial to axial strain = 5 %" ;;
     table) for one in $table; do table_of "$one"; done ;;
     table_*) table_of "${name#table_}" ;;
-    brazilian*) run brazilian "$name" brazilian "Specimen/seed=$seed" ;;
-    ucs*) run triaxial "$name" ucs "Specimen/file=$(specimen "$seed" 5)" ;;
-    isotropic*) run triaxial "$name" triaxial_isotropic "Specimen/file=$(specimen "$seed" 5)" ;;
-    *MPa*) run triaxial "$name" "triaxial_${name%_[0-9]}" "Specimen/file=$(specimen "$seed" 5)" \
-      "Loading/stage 2=triaxial to axial strain = ${STRAIN:-20 %}" ;;
+    brazilian*) run brazilian "$name" brazilian "Specimen/seed=$seed" "Specimen/upscaling ratio=${S:-5}" ;;
+    ucs* | Z4_ucs*) of_the_paper "$name" ucs "$seed" ;;
+    isotropic*) of_the_paper "$name" triaxial_isotropic "$seed" ;;
+    *MPa*)
+      pressure=${name#Z4_}
+      of_the_paper "$name" "triaxial_${pressure%_[0-9]}" "$seed" "Loading/stage 2=triaxial to axial strain = ${STRAIN:-20 %}" ;;
     *) echo "$name: unknown" >&2; exit 1 ;;
   esac
 done
@@ -93,7 +105,7 @@ row() {
 }
 {
   echo "test,largest q [MPa],at strain [%],last strain [%],last q [MPa],last volumetric strain [%],penetration [%],pressure delivered [-],lateral stress of the middle third [MPa],axial stress of the middle third [MPa],largest energy error [-]"
-  for name in small mesh_* table_* ucs* isotropic* *MPa*; do
+  for name in small mesh_* table_* *ucs* isotropic* *MPa*; do
     [ ! -s "$name/history.csv" ] || row "$name"
   done
 } >membrane.csv
