@@ -51,7 +51,7 @@ of_the_paper() {
   shift 3
   [[ $name != Z4_* ]] || Z=4
   run triaxial "$name" "$case" "Specimen/upscaling ratio=${S:-5}" ${Z:+"Specimen/coordination=$Z"} \
-    "Specimen/file=$(specimen "$seed" "${S:-5}" $Z)" "$@"
+    "Specimen/seed=$seed" "Specimen/file=$(specimen "$seed" "${S:-5}" $Z)" "$@"
 }
 
 # One thing at a time at S = 8, at 1 MPa to 10 %.
