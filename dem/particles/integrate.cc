@@ -1,6 +1,7 @@
 #include "dem/particles/integrate.h"
 
 #include "dem/math/lane_sum.h"
+#include "dem/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,10 +96,11 @@ double kinetic_energy(const ParticleState& b, const Motion& motion)
 [[noreturn]] void refuse_motion(const Particles& p, Index i, double dt)
 {
   const ParticleState& b = p.state[i];
-  const std::string remedy = " in one step (at most 0.05): lower `Motion/time step safety`";
+  const std::string remedy = " in one step (at most " + shortest(largest_step_motion) +
+                             "): lower `Motion/time step safety`";
   const double moved = dt * b.v.norm() / b.R, rotated = dt * b.omega.norm();
   const std::string who = "particle " + std::to_string(p.id[i]);
-  if (!(moved <= 0.05))
+  if (!(moved <= largest_step_motion))
     throw NumericalError(who + " moves " + std::to_string(moved) + " radii" + remedy);
   throw NumericalError(who + " turns by " + std::to_string(rotated) + " rad" + remedy);
 }
@@ -116,8 +118,8 @@ public:
     ParticleState& b = p_.state[i];
     const Vec3 dx = dt_ * b.v;
     const double moved2 = dx.squaredNorm();
-    if (!(moved2 <= 0.05 * 0.05 * b.R * b.R) ||
-        !(b.omega.squaredNorm() * dt_ * dt_ <= 0.05 * 0.05))
+    constexpr double most2 = largest_step_motion * largest_step_motion;
+    if (!(moved2 <= most2 * b.R * b.R) || !(b.omega.squaredNorm() * dt_ * dt_ <= most2))
       refuse_motion(p_, i, dt_);
     b.x += dx;
     const double spare = spare_ ? spare_[i] : 0.0;

@@ -71,9 +71,15 @@ void kick(Particles& p, const Motion& motion, double dt, KickWork& work);
 EnergySum kinetic_energy_after_kick(const Particles& p, const Motion& motion, double dt,
                                     KickWork& work);
 
+/// What a particle may move over its radius, or turn [rad], in a step. A grain that is squeezed out
+/// of crushed rock flies at some 70 m/s, a twentieth of its radius in a step: that is physics. At a
+/// stable step, a motion of R/5 ends a collision with an overlap of at least R/10 after one or two
+/// steps, which no longer follow it.
+inline constexpr double largest_step_motion = 0.2;
+
 /// x^{n+1} = x^n + dt v^{n+1/2}.
-/// @throws NumericalError when a particle moves more than R/20 or turns more than 0.05 rad
-///   in the step, or when its motion is not finite
+/// @throws NumericalError when a particle moves or turns more than largest_step_motion, or when its
+///   motion is not finite
 void drift(Particles& p, double dt);
 
 /// kick() over dt_kick and drift() over dt [s] in one pass; leaves the loads at zero.
