@@ -3,7 +3,7 @@
 #
 # usage: tests/validation/laboratory.sh MERGEL FOLDER [STUDY...]
 #   FOLDER  takes specimens, runs and a table STUDY.csv of each study; what is there is not run again
-#   STUDY   bands fig14 fig15 fig8 fig9b fig10 fig11 fig7; default all of them in this order
+#   STUDY   bands coordination fig14 fig15 fig8 fig9b fig10 fig11 fig7; default all of them in this order
 # Environment: JOBS, runs at a time, default 2; SEEDS, default "1 2 3"; FLOWS, default "published conjugate".
 set -euo pipefail
 [ $# -ge 2 ] || { sed -n '2,7s/^# \{0,1\}//p' "$0" >&2; exit 1; }
@@ -12,7 +12,7 @@ mergel=$(readlink -f "$1")
 mkdir -p "$2"
 cd "$2"
 shift 2
-[ $# -gt 0 ] || set -- bands fig14 fig15 fig8 fig9b fig10 fig11 fig7
+[ $# -gt 0 ] || set -- bands coordination fig14 fig15 fig8 fig9b fig10 fig11 fig7
 read -ra seeds <<<"${SEEDS:-1 2 3}"
 read -ra flows <<<"${FLOWS:-published conjugate}"
 
@@ -132,6 +132,33 @@ over_unbonded() {
   if [ "$p" != nan ]; then awk -v p="$p" 'BEGIN { print p / 24.9e6 }'; return; fi
   e=$(at "$1" "void ratio [-]" "p [Pa]" 24.9e6)
   awk -v b="$(at "$2" "p [Pa]" "void ratio [-]" "$e")" 'BEGIN { print b == "nan" ? b : 24.9e6 / b }'
+}
+
+# The rock of Table 1 with fewer bonds: which Z = 2 N_bonds/N the table belongs to.
+coordination() {
+  local s Z name
+  for s in "${seeds[@]}"; do
+    for Z in 4 5 5.8; do specimen "rock_Z${Z}_$s" rock "Specimen/seed=$s; Specimen/coordination=$Z"; done
+  done
+  all_done
+  for s in "${seeds[@]}"; do
+    for Z in 4 5 5.8; do
+      run "coordination/ucs_Z${Z}_$s" rock "rock_Z${Z}_$s" "compression to axial strain = 2 %"
+      run "coordination/tension_Z${Z}_$s" rock "rock_Z${Z}_$s" "tension to axial strain = -1.5 %"
+      run "coordination/tx1_Z${Z}_$s" rock "rock_Z${Z}_$s" "isotropic to p = 1 MPa; triaxial to axial strain = 10 %"
+    done
+  done
+  all_done
+  header coordination Z seed "E [Pa]" nu "UCS [Pa]" "tensile strength [Pa]" "peak q at 1 MPa [Pa]" "minimum q at 1 MPa [Pa]" \
+    "q at 10 % [Pa]"
+  for Z in 4 5 5.8; do
+    for s in "${seeds[@]}"; do
+      name=coordination/ucs_Z${Z}_$s
+      row $Z "$s" "$(value "$name" "Young's modulus")" "$(value "$name" "Poisson's ratio")" "$(value "$name" UCS)" \
+        "$(value "coordination/tension_Z${Z}_$s" "tensile strength")" "$(value "coordination/tx1_Z${Z}_$s" "largest q")" \
+        "$(value "coordination/tx1_Z${Z}_$s" "minimum after the largest q")" "$(value "coordination/tx1_Z${Z}_$s" "q at the end")"
+    done
+  done
 }
 
 # Isotropic and triaxial compression of the calibrated rock, without the membrane.
