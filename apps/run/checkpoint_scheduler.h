@@ -68,9 +68,8 @@ public:
   /// steps, after a rank received a signal of Signals, and before the walltime is over. The
   /// results of the run do not depend on it, bit for bit.
   /// @param save adds the state of the run, each rank its part; collective
-  /// @throws Stopped after SIGTERM, SIGINT or SIGHUP and before the end of the walltime;
-  ///   CollectiveFailure
-  ///   when the checkpoint cannot be written, naming the last good one
+  /// @throws Stopped after a signal that stops (Signals) and before the end of the walltime;
+  ///   CollectiveFailure when the checkpoint cannot be written, naming the last good one
   void after_step(const dem::Communicator& comm, const Position& at,
                   const std::function<void(dem::State&)>& save);
 

@@ -12,7 +12,7 @@ namespace {
 
 volatile std::sig_atomic_t stop_signal = 0, has_int = 0, has_usr1 = 0;
 
-constexpr std::array<int, 3> stopping{SIGTERM, SIGINT, SIGHUP};
+constexpr std::array<int, 5> stopping{SIGTERM, SIGINT, SIGHUP, SIGXCPU, SIGUSR2};
 
 void handle(int number, void (*handler)(int))
 {
@@ -52,7 +52,14 @@ extern "C" void remember_stop(int number)
 }
 
 /// Handlers before Signals, in the order of `stopping`.
-std::array<void (*)(int), stopping.size()> before{SIG_DFL, SIG_DFL, SIG_DFL};
+std::array<void (*)(int), stopping.size()> before{};
+
+/// Whether a signal that was ignored stays so: a shell's background jobs, and nohup. All others are
+/// sent by a queue, which means them.
+bool may_be_ignored(int number)
+{
+  return number == SIGINT || number == SIGHUP;
+}
 
 /// Of the program at its start.
 bool are_interrupts_ignored = false, are_hangups_ignored = false;
@@ -66,7 +73,8 @@ Signals::Signals()
   has_usr1 = 0;
   for (std::size_t k = 0; k < stopping.size(); ++k) {
     before[k] = handler_of(stopping[k]);
-    if (stopping[k] == SIGTERM || before[k] != SIG_IGN) handle(stopping[k], remember_stop);
+    if (before[k] != SIG_IGN || !may_be_ignored(stopping[k]))
+      handle(stopping[k], remember_stop);
   }
   handle(SIGUSR1, remember_checkpoint);
 }
@@ -99,6 +107,10 @@ std::string name_of_signal(int number)
     return "SIGINT";
   case SIGHUP:
     return "SIGHUP";
+  case SIGXCPU:
+    return "SIGXCPU";
+  case SIGUSR2:
+    return "SIGUSR2";
   default:
     return "signal " + std::to_string(number);
   }
@@ -114,6 +126,7 @@ void ignore_signals()
 void ignore_signals_again()
 {
   for (const int number : {SIGUSR1, SIGXFSZ, SIGPIPE}) handle(number, SIG_IGN);
+  handle(SIGUSR2, SIG_DFL); // PETSc would call it an error of the program
   if (are_interrupts_ignored) handle(SIGINT, SIG_IGN);
   if (are_hangups_ignored) handle(SIGHUP, SIG_IGN);
 }

@@ -5,7 +5,8 @@
 
 namespace mergel::apps {
 
-/// While it lives, SIGTERM, SIGINT (Ctrl-C), SIGHUP (the terminal was closed) and SIGUSR1 are
+/// While it lives, SIGTERM, SIGINT (Ctrl-C), SIGHUP (the terminal was closed), SIGXCPU (a limit of
+/// processor time is reached), SIGUSR2 (sent by queues before their limit) and SIGUSR1 are
 /// recorded and do not end the program. A second SIGINT ends it at once. SIGINT and SIGHUP
 /// stay ignored where they were (a shell's background job, nohup). The destructor restores
 /// what was before; a later SIGUSR1 has no effect.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The ways in which people end runs: SIGTERM, Ctrl-C (SIGINT), a closed terminal (SIGHUP), a pipe that
-# nobody reads (SIGPIPE), nohup, a standard output that is full or closed. The run stops behind a
+# The ways in which people and queues end runs: SIGTERM, Ctrl-C (SIGINT), a closed terminal (SIGHUP), a limit of
+# processor time (SIGXCPU), a queue's warning (SIGUSR2), a pipe that nobody reads (SIGPIPE), nohup, a standard output that is full or closed. The run stops behind a
 # checkpoint and is continued, or goes on by itself: its results are those of a run that was never
 # disturbed, byte for byte.
 #
@@ -21,7 +21,7 @@ same() {
 
 bounded "$mergel" element "$case_file" "${tiny[@]}" --output whole >log || fail "the whole run: $(tail -3 log)"
 
-for signal in TERM INT HUP PIPE; do
+for signal in TERM INT HUP XCPU USR2 PIPE; do
   begin "$signal"
   signal_when "$signal" has_lines "$signal" 4
   code=0; wait $launched || code=$?

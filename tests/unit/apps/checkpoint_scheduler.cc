@@ -106,9 +106,13 @@ TEST_CASE("SIGTERM and the end of the walltime stop a run after a checkpoint",
                     Contains("stopped before the end of --walltime at step 10"));
 }
 
-TEST_CASE("Ctrl-C and a closed terminal stop a run as SIGTERM does", "[unit][apps]")
+TEST_CASE("Ctrl-C, a closed terminal and the limits of a queue stop a run as SIGTERM does",
+          "[unit][apps]")
 {
-  for (const auto& [signal, name] : {std::pair{SIGINT, "SIGINT"}, {SIGHUP, "SIGHUP"}}) {
+  for (const auto& [signal, name] : {std::pair{SIGINT, "SIGINT"},
+                                     {SIGHUP, "SIGHUP"},
+                                     {SIGXCPU, "SIGXCPU"},
+                                     {SIGUSR2, "SIGUSR2"}}) {
     const TemporaryFolder folder;
     std::signal(signal, SIG_DFL); // ignored where the tests run in the background
     CheckpointScheduler scheduler(
@@ -171,6 +175,14 @@ TEST_CASE("A second Ctrl-C ends a run at once, and what was ignored stays ignore
           }
           std::raise(SIGHUP); // a job without checkpoints, or behind its last one
         }) == SIGHUP);
+  CHECK(ending_signal([] {
+          std::signal(SIGUSR2, SIG_IGN); // any handler of a library
+          ignore_signals();
+          {
+            const Signals signals;
+          }
+          std::raise(SIGUSR2);
+        }) == SIGUSR2);
 }
 
 TEST_CASE("The first checkpoint before the end of the walltime assumes a slow disk",
