@@ -13,8 +13,8 @@
 #include "apps/run/restart.h"
 #include "apps/run/run_guard.h"
 #include "apps/run/signals.h"
-#include "apps/run/standard_output.h"
 #include "dem/error.h"
+#include "dem/io/standard_output.h"
 #include "fem/runtime.h"
 
 #include <CLI/CLI.hpp>
@@ -153,7 +153,7 @@ int run(int argc, char** argv)
   else
     start = [run = std::get<ReadArguments>(job.run)(rest)] {
       const int code = run();
-      on_first_rank([] { require_printed(); });
+      on_first_rank([] { dem::require_printed(); });
       return code;
     };
 
@@ -166,7 +166,7 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-  hold_standard_descriptors();
+  dem::hold_standard_descriptors();
   ignore_signals();
   // Only the first rank prints to the user.
   if (launched_rank() > 0) std::cout.setstate(std::ios::badbit);

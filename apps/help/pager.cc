@@ -1,7 +1,7 @@
 #include "apps/help/pager.h"
 
 #include "apps/run/run_guard.h"
-#include "apps/run/standard_output.h"
+#include "dem/io/standard_output.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -53,7 +53,7 @@ void show(const std::string& text)
   if (rows > 0 && n >= rows && !pager.empty() && pager != "cat" && show_by(pager, text))
     return;
   std::cout << text;
-  if (launched_rank() <= 0) require_printed();
+  if (launched_rank() <= 0) dem::require_printed();
 }
 
 } // namespace mergel::apps

@@ -1,6 +1,7 @@
 #include "apps/view/options.h"
 
 #include "dem/error.h"
+#include "dem/io/standard_output.h"
 
 #include <CLI/CLI.hpp>
 
@@ -117,6 +118,7 @@ std::optional<Options> read_options(int argc, char** argv, int& code)
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     code = app.exit(error) == 0 ? 0 : 1; // 0: --help was asked for
+    if (code == 0) dem::require_printed();
     return std::nullopt;
   }
   options.has_frame = frame->count() > 0;

@@ -19,6 +19,7 @@
 #include "apps/view/pile/draw_pile.h"
 #include "dem/error.h"
 #include "dem/io/readable.h"
+#include "dem/io/standard_output.h"
 #include "dem/io/table.h"
 
 #include <algorithm>
@@ -171,6 +172,7 @@ void draw(const Options& options)
 
 int main(int argc, char** argv)
 {
+  dem::hold_standard_descriptors();
   std::signal(SIGPIPE, SIG_IGN); // all pictures are made, read or not what is printed
   try {
     int code = 0;

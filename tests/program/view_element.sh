@@ -159,4 +159,13 @@ else
   forbidden 'sheared: cannot be read: Permission denied' --output out sheared
 fi
 
+# The page of --help that cannot be printed is said; a reader that has seen enough is no loss.
+for closed in '>/dev/full' '>&-'; do
+  code=0
+  eval "\"\$view\" --help 2>log $closed" || code=$?
+  [ $code -eq 2 ] && grep -q '^mergel-view: the standard output cannot be written: ' log || fail "--help $closed: exit code $code: $(cat log)"
+done
+{ code=0; "$view" --help 2>log || code=$?; echo $code >code; } | true
+[ "$(cat code)" = 0 ] && [ ! -s log ] || fail "--help, not read: exit code $(cat code): $(cat log)"
+
 echo "view_element: all checks hold"

@@ -1,4 +1,4 @@
-#include "apps/run/standard_output.h"
+#include "dem/io/standard_output.h"
 
 #include "dem/error.h"
 
@@ -8,7 +8,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-namespace mergel::apps {
+namespace mergel::dem {
 
 void hold_standard_descriptors()
 {
@@ -32,4 +32,4 @@ void require_printed()
                        (is_closed ? "it is closed" : "is the disk full?"));
 }
 
-} // namespace mergel::apps
+} // namespace mergel::dem

@@ -1,7 +1,7 @@
 /// The standard output, which may be closed or full, or a pipe that nobody reads.
 #pragma once
 
-namespace mergel::apps {
+namespace mergel::dem {
 
 /// Call it at the start of a program: where a standard stream is closed, its descriptor is
 /// kept from the next file that is opened, which would get all that is printed.
@@ -12,4 +12,4 @@ void hold_standard_descriptors();
 /// @throws NumericalError on a full disk, or a standard output that is closed
 void require_printed();
 
-} // namespace mergel::apps
+} // namespace mergel::dem
