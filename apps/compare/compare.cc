@@ -4,6 +4,7 @@
 #include "apps/compare/tests_table.h"
 #include "apps/run/command_line.h"
 #include "apps/run/jobs.h"
+#include "apps/run/provenance.h"
 #include "apps/run/ranks.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
@@ -28,6 +29,7 @@ struct CompareOptions {
   std::vector<std::string> folders, labels;
   fs::path output; ///< empty: the table is printed only
   bool overwrite = false;
+  std::vector<std::string> command; ///< its words
 };
 
 const std::vector<std::string> files{"tests.csv", "tests.json"};
@@ -81,14 +83,16 @@ std::vector<std::string> checked_labels(const CompareOptions& o)
 
 int run_compare(const CompareOptions& o)
 {
+  const Provenance made = provenance(o.command);
   on_first_rank([&] {
     const auto labels = checked_labels(o);
     const TestSeries series = read_series_of_tests(o.folders, labels);
     check_output(o);
     print(std::cout, series);
     if (o.output.empty()) return;
-    dem::replace_file(o.output / files[0], csv_of(series));
-    dem::replace_file(o.output / files[1], json_of(series));
+    // Its remark stands last: a reader takes the first line for the heading.
+    dem::replace_file(o.output / files[0], csv_of(series) + made.remark());
+    dem::replace_file(o.output / files[1], json_of(series, made.json()));
     std::cout << (o.output / files[0]).string() << '\n'
               << (o.output / files[1]).string() << '\n';
   });
@@ -118,6 +122,8 @@ std::function<int()> read_compare(const std::vector<std::string>& arguments)
 {
   CLI::App app;
   CompareOptions o;
+  o.command = {"mergel", "compare"};
+  o.command.insert(o.command.end(), arguments.begin(), arguments.end());
   app.add_option("DIR", o.folders)->required();
   app.add_option("--output", o.output);
   app.add_flag("--overwrite", o.overwrite);

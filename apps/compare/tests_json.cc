@@ -135,7 +135,7 @@ std::string critical(const TestSeries& s)
 
 } // namespace
 
-std::string json_of(const TestSeries& s)
+std::string json_of(const TestSeries& s, const std::string& made_by)
 {
   std::vector<std::string> tests, groups, notes;
   for (const TestReading& t : s.tests) tests.push_back(test(t));
@@ -149,6 +149,7 @@ std::string json_of(const TestSeries& s)
   all.json("Coulomb line at the peak", strength(s, s.peak));
   all.json("Coulomb line in the critical state", strength(s, s.critical));
   all.json("critical state line", critical(s));
+  all.json("made by", made_by); // last: the files are known by their first words
   return all.object();
 }
 

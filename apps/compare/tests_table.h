@@ -17,6 +17,7 @@ void print(std::ostream& out, const TestSeries& series);
 std::string csv_of(const TestSeries& series);
 
 /// All of it; what does not exist has no member.
-std::string json_of(const TestSeries& series);
+/// @param made_by a JSON object (apps/run/provenance.h)
+std::string json_of(const TestSeries& series, const std::string& made_by);
 
 } // namespace mergel::apps

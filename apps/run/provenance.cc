@@ -37,14 +37,20 @@ std::string host_name()
 
 } // namespace
 
-Provenance provenance(const JobOptions& options)
+Provenance provenance(const std::vector<std::string>& command)
 {
   Provenance p;
   p.program = dem::program_text();
   p.date = present_date();
   p.host = host_name();
   MPI_Comm_size(MPI_COMM_WORLD, &p.n_ranks);
-  p.command = in_shell(options.command);
+  p.command = in_shell(command);
+  return p;
+}
+
+Provenance provenance(const JobOptions& options)
+{
+  Provenance p = provenance(options.command);
   const fs::path& named = options.case_file.empty() ? options.restart : options.case_file;
   p.case_name = fs::absolute(named).lexically_normal().string();
   return p;
@@ -54,14 +60,15 @@ std::string Provenance::json() const
 {
   return "{\"program\": " + in_json(program) + ", \"date\": " + in_json(date) +
          ", \"host\": " + in_json(host) + ", \"ranks\": " + std::to_string(n_ranks) +
-         ", \"command\": " + in_json(command) + ", \"case\": " + in_json(case_name) + "}";
+         ", \"command\": " + in_json(command) +
+         (case_name.empty() ? "" : ", \"case\": " + in_json(case_name)) + "}";
 }
 
 std::string Provenance::remark() const
 {
   return std::string(first_words_of_start) + date + " on " + printable(host) + " with " +
          std::to_string(n_ranks) + (n_ranks == 1 ? " rank" : " ranks") + " by " + program +
-         ": " + command + "; case " + in_shell(case_name) + "\n";
+         ": " + command + (case_name.empty() ? "" : "; case " + in_shell(case_name)) + "\n";
 }
 
 std::string earlier_starts(const fs::path& resolved)

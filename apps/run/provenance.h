@@ -15,7 +15,7 @@ struct Provenance {
   std::string host;    ///< of the first rank
   int n_ranks = 1;
   std::string command;   ///< as a shell reads it
-  std::string case_name; ///< file of the case, absolute; or what was restarted
+  std::string case_name; ///< file of the case, absolute; or what was restarted; "": none
 
   /// A JSON object in one line.
   std::string json() const;
@@ -27,6 +27,8 @@ inline constexpr std::string_view first_words_of_start = "# made on ";
 
 /// Of the run that begins. @pre MPI is initialised
 Provenance provenance(const JobOptions& options);
+/// Of a job without a case. @param command its words @pre MPI is initialised
+Provenance provenance(const std::vector<std::string>& command);
 
 /// The lines by remark() at the head of the resolved case of an earlier start; "" without one.
 std::string earlier_starts(const std::filesystem::path& resolved);

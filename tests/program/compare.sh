@@ -48,20 +48,29 @@ for expected in "c [Pa]|1e6" "phi [degree]|30" "Gamma [-]|1.3" "lambda [-]|0.011
   same "$(number exact/tests.json "${expected%|*}")" "${expected#*|}" 1e-4 || fail "$expected: $(grep -F "${expected%|*}" exact/tests.json)"
 done
 n=$(head -1 exact/tests.csv | tr -cd , | wc -c)
-awk -F, -v n="$n" 'NF != n + 1 { exit 1 }' exact/tests.csv || fail "tests.csv: a line of another length"
-[ "$(wc -l <exact/tests.csv)" -eq 7 ] || fail "tests.csv: four tests, a mean and its error wanted: $(cat exact/tests.csv)"
+awk -F, -v n="$n" '!/^#/ && NF != n + 1 { exit 1 }' exact/tests.csv || fail "tests.csv: a line of another length"
+[ "$(grep -vc '^#' exact/tests.csv)" -eq 7 ] || fail "tests.csv: four tests, a mean and its error wanted: $(cat exact/tests.csv)"
 cmp -s <("$mergel" compare exact_0.5 exact_1 exact_1_again exact_2) <(grep -v '^exact/tests' log) || fail "the table differs without --output"
 if command -v python3 >/dev/null; then
   python3 - exact <<'PY' || fail "a reader of CSV or JSON"
 import csv, json, sys
-rows = list(csv.DictReader(open(sys.argv[1] + "/tests.csv")))
+rows = list(csv.DictReader(line for line in open(sys.argv[1] + "/tests.csv") if not line.startswith("#")))
 assert [r["test"] for r in rows] == ["exact_0.5", "exact_1", "exact_1_again", "exact_2", "mean", "standard error"], rows
 assert abs(float(rows[1]["q at the minimum after the peak [Pa]"]) - 2.5e6) < 1
 tests = json.load(open(sys.argv[1] + "/tests.json"))
 assert len(tests["tests"]) == 4 and tests["tests that differ only by seed"][0]["tests"] == ["exact_1", "exact_1_again"]
+assert set(tests["made by"]) == {"program", "date", "host", "ranks", "command"}, tests["made by"]
 assert tests["Coulomb line in the critical state"]["tests"] == [t["test"] for t in tests["tests"]]
 PY
 fi
+
+# Both say by what they were made: the last line of the one, a member of the other.
+program=$("$mergel" version | awk 'NR == 1 { name = $0 } $1 == "commit" { sub(/^commit +/, ""); print name ", commit " $0 }')
+command='mergel compare exact_0.5 exact_1 exact_1_again exact_2 --output exact'
+tail -1 exact/tests.csv | grep -q "^# made on 20[0-9T:-]*Z on $(uname -n) with 1 rank by $program: $command\$" || fail "tests.csv says: $(tail -1 exact/tests.csv)"
+for member in "\"program\": \"$program\"" "\"host\": \"$(uname -n)\"" "\"command\": \"$command\""; do
+  grep -qF "$member" exact/tests.json || fail "tests.json lacks $member: $(tail -3 exact/tests.json)"
+done
 
 # A run that has not finished is read without its moduli; the same seed twice is told.
 cp -r exact_2 begun; rm begun/summary.json
@@ -97,7 +106,7 @@ cp exact/tests.csv before
 [ "$(code_of "$mergel" compare exact_1 exact_2 --output exact)" -eq 1 ] && grep -q 'exact/tests.csv: exists. Take --overwrite' log || fail "$(cat log)"
 cmp -s before exact/tests.csv || fail "tests.csv was replaced without --overwrite"
 "$mergel" compare exact_1 exact_2 --output exact --overwrite >log 2>&1 || fail "$(cat log)"
-[ "$(wc -l <exact/tests.csv)" -eq 3 ] || fail "tests.csv was not replaced: $(cat exact/tests.csv)"
+[ "$(grep -vc '^#' exact/tests.csv)" -eq 3 ] || fail "tests.csv was not replaced: $(cat exact/tests.csv)"
 for name in tests.csv tests.json; do
   for option in "" --overwrite; do
     rm -rf own && mkdir own && echo mine >"own/$name"

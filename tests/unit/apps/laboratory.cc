@@ -315,8 +315,8 @@ TEST_CASE("Two tests have no R2, and a volume that still changes is a caution",
   CHECK(three.peak.R2().value_or(0.0) == Approx(1.0));
   REQUIRE(two.peak.line);
   CHECK_FALSE(two.peak.R2());
-  CHECK_THAT(json_of(three), Contains("R2 [-]"));
-  CHECK_THAT(json_of(two), !Contains("R2 [-]"));
+  CHECK_THAT(json_of(three, "{}"), Contains("R2 [-]"));
+  CHECK_THAT(json_of(two, "{}"), !Contains("R2 [-]"));
 
   std::vector<TestReading> dilate = three.tests;
   for (TestReading& t : dilate) t.volume_rate = 0.02;
@@ -332,7 +332,7 @@ TEST_CASE("Two tests have no R2, and a volume that still changes is a caution",
   std::ostringstream text;
   print(text, all);
   CHECK_THAT(text.str(), Contains("\n  caution: the volume still changes"));
-  CHECK_THAT(json_of(all), Contains("\"caution\": "));
+  CHECK_THAT(json_of(all, "{}"), Contains("\"caution\": "));
 }
 
 TEST_CASE("tests.csv has a cell for each heading, tests.json is JSON, both with the means",
@@ -355,7 +355,7 @@ TEST_CASE("tests.csv has a cell for each heading, tests.json is JSON, both with 
   CHECK(n == 5); // three tests, a mean and its standard error
   CHECK_THAT(last, mergel::match::StartsWith("standard error,triaxial,1,2,"));
 
-  std::istringstream json(json_of(s));
+  std::istringstream json(json_of(s, "{}"));
   boost::property_tree::ptree tree;
   REQUIRE_NOTHROW(boost::property_tree::read_json(json, tree));
   CHECK(tree.get_child("tests").size() == 3);
