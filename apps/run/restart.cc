@@ -60,8 +60,10 @@ Restart read_folder(const fs::path& place)
     refused.push_back(r.file.string() + ": " + r.reason);
     if (!r.is_damaged)
       throw InputError(in_front + refused.back() +
-                       ". It may be complete, so the run does not " +
-                       "continue from an older one: make it readable" +
+                       (r.is_of_other_version
+                            ? ""
+                            : ". It may be complete, so the run does not continue from an "
+                              "older one: make it readable") +
                        (newest.file.empty() ? std::string(".")
                                             : ", or choose an older one with --restart " +
                                                   in_shell(newest.file.string()) + "."));

@@ -84,7 +84,7 @@ void craft_checkpoint(const std::filesystem::path& file, const std::string& byte
                 arrays.begin() + static_cast<std::ptrdiff_t>(first % good.size()),
                 arrays.end());
   craft_hdf5(file, arrays,
-             {{"format", 0, 0.0, "mergel checkpoint"}, {"version", H5T_NATIVE_INT, 3.0}},
+             {{"format", 0, 0.0, "mergel checkpoint"}, {"version", H5T_NATIVE_INT, 4.0}},
              choices);
   seal_crafted(file, {"checkpoint", "64-bit sum", "", dem::sum_of_words});
 }

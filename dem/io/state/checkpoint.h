@@ -48,6 +48,7 @@ struct RefusedCheckpoint {
   std::filesystem::path file;
   std::string reason;
   bool is_damaged; ///< truncated or changed; else another user or program may read it
+  bool is_of_other_version = false; ///< another version of mergel reads it
 };
 
 /// A checkpoint that can be read, and why newer ones in its folder cannot.

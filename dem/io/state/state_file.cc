@@ -269,12 +269,13 @@ State read_state(const fs::path& path, const std::string& kind, int version,
     int found = 0;
     read_attribute(file, "version", H5T_NATIVE_INT, &found);
     if (found != version)
-      throw InputError(
+      throw OtherVersion(
           "has " + kind + " format " + std::to_string(found) +
           (found > version ? ", newer than the " : ", older than the ") +
-          std::to_string(version) +
-          " that this program reads; continue the run with the mergel that wrote it, or "
-          "begin it again");
+          std::to_string(version) + " that this program reads: a" +
+          (found > version ? " later" : "n earlier") +
+          " version of mergel has written it. Finish the run with that version, or begin "
+          "it anew");
     std::vector<std::string> names;
     if (H5Literate(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name, &names) < 0)
       throw NumericalError("HDF5 cannot list its arrays");

@@ -108,12 +108,17 @@ private:
 void write_state(const std::filesystem::path& file, const std::string& kind, int version,
                  const State& mine, const Communicator& comm);
 
+/// A whole file of another version of the format: another version of mergel reads it.
+struct OtherVersion : InputError {
+  using InputError::InputError;
+};
+
 /// @param kind what the file must be, for example "checkpoint"
 /// @param sum if not null, becomes the checksum of the file
 /// @throws DamagedFile (dem/io/seal.h), without the file's name in front, when it is
 ///   truncated, changed, or holds an array that HDF5 cannot read or a number that is not
-///   finite; InputError when it is missing, may not be read, or has another format or
-///   version
+///   finite; OtherVersion; InputError when it is missing, may not be read, or has another
+///   format
 State read_state(const std::filesystem::path& file, const std::string& kind, int version,
                  std::uint64_t* sum = nullptr);
 

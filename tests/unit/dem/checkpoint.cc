@@ -148,15 +148,17 @@ TEST_CASE("a file that is not a checkpoint is refused with the reason", "[unit][
   CHECK(refusal(file).find("is no checkpoint, or is truncated") == 0);
   write_sample(file, Sample{});
   CHECK(refusal(file).find("is no checkpoint, or is truncated") == 0);
-  write_state(file, "checkpoint", 4, State(0), Communicator());
-  CHECK(refusal(file) ==
-        "has checkpoint format 4, newer than the 3 that this program reads; continue the "
-        "run with the mergel that wrote it, or begin it again");
-  write_state(file, "checkpoint", 1, State(0), Communicator());
-  CHECK(refusal(file) ==
-        "has checkpoint format 1, older than the 3 that this program reads; continue the "
-        "run with the mergel that wrote it, or begin it again");
+  write_state(file, "checkpoint", 5, State(0), Communicator());
+  CHECK(
+      refusal(file) ==
+      "has checkpoint format 5, newer than the 4 that this program reads: a later version "
+      "of mergel has written it. Finish the run with that version, or begin it anew");
   write_state(file, "checkpoint", 3, State(0), Communicator());
+  CHECK(refusal(file) ==
+        "has checkpoint format 3, older than the 4 that this program reads: an earlier "
+        "version of mergel has written it. Finish the run with that version, or begin it "
+        "anew");
+  write_state(file, "checkpoint", 4, State(0), Communicator());
   CHECK(refusal(file).find("does not fit this program or case: its array label_") == 0);
 }
 
@@ -285,7 +287,9 @@ TEST_CASE("the newest checkpoint that can be read is found, and the newer ones a
   // A complete file of another format is distinguished from a damaged one.
   write_state(folder.path / checkpoint_name(20000), "checkpoint", 2, State(0),
               Communicator());
-  CHECK_FALSE(newest_checkpoint(folder.path).refused.front().is_damaged);
+  const RefusedCheckpoint other = newest_checkpoint(folder.path).refused.front();
+  CHECK_FALSE(other.is_damaged);
+  CHECK(other.is_of_other_version);
 }
 
 TEST_CASE("the checkpoint just written is kept beside left-over files of later steps",
