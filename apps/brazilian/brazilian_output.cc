@@ -114,6 +114,7 @@ BrazilianOutput::BrazilianOutput(const std::filesystem::path& folder,
       history_(folder / "history.csv", columns, earlier / "history.csv", mark_in(state)),
       frames_(folder, kinds, earlier, state)
 {
+  copy_specimen(earlier, folder);
 }
 
 void BrazilianOutput::save(dem::State& state, const BrazilianOutput* output)

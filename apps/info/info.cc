@@ -13,6 +13,7 @@
 #include "apps/run/output_folder.h"
 #include "apps/run/ranks.h"
 #include "apps/run/results.h"
+#include "apps/run/tables.h"
 #include "apps/triaxial/triaxial_output.h"
 #include "dem/io/readable.h"
 #include "dem/io/sample_file.h"
@@ -29,6 +30,8 @@
 #include <iterator>
 #include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace mergel::apps {
 
@@ -163,11 +166,18 @@ std::string lacks_before(const fs::path& folder, const dem::Checkpoint& c)
          ElementPictures::check(folder, c.state);
 }
 
+/// "history.csv is cut"; "" where nothing is wrong.
+std::string with_name(const std::string& name, const std::string& wrong)
+{
+  return wrong.empty() ? "" : name + " " + wrong;
+}
+
 /// The report on a results folder.
 class FolderReport {
 public:
   explicit FolderReport(const fs::path& folder)
-      : folder_(folder), own_(own_files_in(folder))
+      : folder_(folder), own_(own_files_in(folder)), job_(job_of(folder)),
+        is_finished_(has("summary.json"))
   {
     if (own_.files.empty() && !FolderLock::is_known(folder))
       throw InputError("mergel info " + folder.string() +
@@ -178,18 +188,19 @@ public:
   /// False when a file in it cannot be used.
   bool print()
   {
-    const std::vector<std::string> missing = missing_files();
-    std::cout << printable(folder_.string()) << ": results folder, "
-              << state_of(folder_, missing.empty()) << '\n';
-    for (const std::string& name : missing) judge("missing", name, "");
+    for (const std::string& name : missing_files()) judge_result("missing", name, "");
     if (const std::string holder = FolderLock::holder(folder_); !holder.empty())
-      line("now", holder + " is writing there");
+      say("now", holder + " is writing there");
     describe_case();
     describe_history();
+    describe_other_tables();
     describe_sample_file();
     describe_frames();
     describe_summary();
     describe_checkpoints();
+    std::cout << printable(folder_.string()) << ": results folder, "
+              << state_of(folder_, is_whole_) << '\n';
+    for (const auto& [name, value] : lines_) line(name, value);
     return is_good_;
   }
 
@@ -199,20 +210,29 @@ private:
     std::error_code error; // the folder itself can be reached: own_files_in()
     return fs::exists(folder_ / name, error);
   }
+  void say(const std::string& name, const std::string& value)
+  {
+    lines_.emplace_back(name, value);
+  }
   void judge(const std::string& name, const std::string& wrong, const std::string& good)
   {
     is_good_ = is_good_ && wrong.empty();
-    line(name, wrong.empty() ? good : wrong);
+    say(name, wrong.empty() ? good : wrong);
+  }
+  /// The same of what a finished run has to hold.
+  void judge_result(const std::string& name, const std::string& wrong,
+                    const std::string& good)
+  {
+    is_whole_ = is_whole_ && wrong.empty();
+    judge(name, wrong, good);
   }
 
   std::vector<std::string> missing_files() const
   {
-    const bool is_finished = has("summary.json");
-    if (!is_finished && !has("failed.json") && own_.frames.empty() &&
+    if (!is_finished_ && !has("failed.json") && own_.frames.empty() &&
         dem::checkpoints_in(folder_).empty())
       return {}; // a run that was ended while it began
-    return missing_results(folder_, job_of(folder_),
-                           is_finished ? Extent::finished : Extent::begun);
+    return missing_results(folder_, job_, is_finished_ ? Extent::finished : Extent::begun);
   }
 
   void describe_case()
@@ -226,21 +246,46 @@ private:
     judge("case", wrong, "resolved.prm, " + std::to_string(n_keys) + " keys");
   }
 
+  /// A table of the run, or what is wrong with it.
+  std::pair<dem::Table, std::string> read(const std::string& name) const
+  {
+    dem::Table table;
+    std::string wrong = with_name(name, lost_heading(folder_ / name, job_));
+    if (wrong.empty()) wrong = fault([&] { table = dem::read_table(folder_ / name); });
+    if (wrong.find("holds no record") != std::string::npos) wrong.clear();
+    return {std::move(table), wrong};
+  }
+
   void describe_history()
   {
     if (!has("history.csv")) return;
-    dem::Table table;
-    const std::string wrong =
-        fault([&] { table = dem::read_table(folder_ / "history.csv"); });
+    auto [table, wrong] = read("history.csv");
+    if (wrong.empty()) wrong = with_name("history.csv", lost_start(table));
+    if (wrong.empty() && is_finished_)
+      wrong = with_name("history.csv", lost_end(table, folder_));
     std::string last;
     if (table.n_rows > 0)
       last = ", the last at " + table.columns.front().name + " " +
              dem::shortest(table.columns.front().values.back()) + " " +
              table.columns.front().unit;
-    const bool is_empty = wrong.find("holds no record") != std::string::npos;
-    judge("history", is_empty ? "" : wrong,
-          std::to_string(table.n_rows) + " records" + last +
-              (table.is_last_line_cut ? "; a line is cut" : ""));
+    judge_result("history", wrong,
+                 std::to_string(table.n_rows) + " records" + last +
+                     (table.is_last_line_cut ? "; a line is cut" : "") +
+                     (begins_at_checkpoint(table)
+                          ? "; begins at a checkpoint, the records before it are missing"
+                          : ""));
+  }
+
+  /// Only those with a fault.
+  void describe_other_tables()
+  {
+    for (const std::string& name : tables_of(job_)) {
+      if (name == "history.csv" || !has(name.c_str())) continue;
+      auto [table, wrong] = read(name);
+      if (wrong.empty() && is_finished_ && table.is_last_line_cut)
+        wrong = name + " is cut: its last line is not whole";
+      if (!wrong.empty()) judge_result("table", wrong, "");
+    }
   }
 
   void describe_sample_file()
@@ -248,9 +293,9 @@ private:
     if (!has("sample.h5")) return;
     dem::Sample s;
     const std::string wrong = fault([&] { s = dem::read_sample(folder_ / "sample.h5"); });
-    judge("sample", wrong.empty() ? "" : "sample.h5 " + wrong,
-          std::to_string(s.packing.particles.size()) + " particles, " +
-              std::to_string(s.bonding.pairs.size()) + " bonds, good");
+    judge_result("sample", wrong.empty() ? "" : "sample.h5 " + wrong,
+                 std::to_string(s.packing.particles.size()) + " particles, " +
+                     std::to_string(s.bonding.pairs.size()) + " bonds, good");
   }
 
   void describe_frames()
@@ -263,7 +308,8 @@ private:
           require(!dem::is_readable(frame) || is_whole_vtk(frame),
                   frame.string() + ": is cut");
         });
-    judge("fields", wrong, std::to_string(own_.frames.size()) + " files, none is cut");
+    judge_result("fields", wrong,
+                 std::to_string(own_.frames.size()) + " files, none is cut");
   }
 
   void describe_summary()
@@ -273,8 +319,8 @@ private:
     try {
       const auto tree = read_json(folder_ / "summary.json");
       if (const auto made = tree.get_child_optional("made by"))
-        line("made by", made->get("program", "?") + ", " + made->get("date", "?") + " on " +
-                            made->get("host", "?") + ", ranks: " + made->get("ranks", "?"));
+        say("made by", made->get("program", "?") + ", " + made->get("date", "?") + " on " +
+                           made->get("host", "?") + ", ranks: " + made->get("ranks", "?"));
     } catch (const InputError& e) {
       wrong = e.what();
     } catch (const std::exception& e) {
@@ -302,13 +348,13 @@ private:
         std::string lacks;
         if (const std::string other = fault([&] { lacks = lacks_before(folder_, c); });
             !other.empty())
-          judge("restart", other, "");
+          judge_result("restart", other, "");
         std::istringstream lines(lacks);
-        for (std::string text; std::getline(lines, text);) line("restart", text);
+        for (std::string text; std::getline(lines, text);) say("restart", text);
       }
       is_newest = false;
     }
-    if (!has_any) line("checkpoints", "none");
+    if (!has_any) say("checkpoints", "none");
     double bytes = 0.0;
     for (const fs::path& file : own_.aside) {
       std::error_code gone;
@@ -316,13 +362,17 @@ private:
       if (!gone) bytes += static_cast<double>(size);
     }
     if (!own_.aside.empty())
-      line("set aside", std::to_string(own_.aside.size()) + " checkpoints (*.aside), " +
-                            megabytes(bytes));
+      say("set aside", std::to_string(own_.aside.size()) + " checkpoints (*.aside), " +
+                           megabytes(bytes));
   }
 
   const fs::path folder_;
   const OwnFiles own_;
-  bool is_good_ = true;
+  const std::string job_;
+  const bool is_finished_;
+  std::vector<std::pair<std::string, std::string>> lines_; ///< name and value
+  bool is_good_ = true;                                    ///< nothing is damaged
+  bool is_whole_ = true;                                   ///< no result is missing or cut
 };
 
 int run_info(const fs::path& path)
@@ -360,8 +410,8 @@ void help_info(std::ostream& out)
 {
   out << "  PATH  a sample, a checkpoint, or the results folder of a run\n\n"
          "The report on a folder also names the run that is writing there, the failure of "
-         "a run,\ncheckpoints that were set aside, and files that are missing: then a run "
-         "that has ended is\ncalled incomplete.\n"
+         "a run,\ncheckpoints that were set aside, and files that are missing or cut: then "
+         "a run that has ended\nis called incomplete.\n"
          "Exit code 1 when a file is damaged, missing or not written by mergel.\n";
 }
 

@@ -94,9 +94,7 @@ PileOutput::PileOutput(const std::filesystem::path& folder, const PileCase& c,
     for (std::size_t k = 0; k < x.size(); k += 3)
       x_last_.emplace_back(x[k], x[k + 1], x[k + 2]);
   }
-  if (!std::filesystem::equivalent(folder, earlier) &&
-      std::filesystem::exists(earlier / "sample.h5"))
-    copy_atomically(earlier / "sample.h5", folder / "sample.h5");
+  copy_specimen(earlier, folder);
 }
 
 void PileOutput::save(dem::State& state, const PileOutput* output)

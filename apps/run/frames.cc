@@ -30,14 +30,23 @@ bool is_there(const std::filesystem::path& file)
   return std::filesystem::is_regular_file(file, error);
 }
 
-} // namespace
-
+/// Copy a file under a temporary name and rename it.
 void copy_atomically(const std::filesystem::path& from, const std::filesystem::path& to)
 {
   dem::replace_file(to, [&](const std::filesystem::path& path) {
     std::filesystem::copy_file(from, path,
                                std::filesystem::copy_options::overwrite_existing);
   });
+}
+
+} // namespace
+
+void copy_specimen(const std::filesystem::path& earlier,
+                   const std::filesystem::path& folder)
+{
+  constexpr const char* name = "sample.h5";
+  if (!std::filesystem::equivalent(folder, earlier) && is_there(earlier / name))
+    copy_atomically(earlier / name, folder / name);
 }
 
 Frames::Frames(const std::filesystem::path& folder, std::vector<Kind> kinds)

@@ -45,7 +45,9 @@ private:
   std::vector<dem::Series> series_; ///< as kinds_
 };
 
-/// Copy a file under a temporary name and rename it.
-void copy_atomically(const std::filesystem::path& from, const std::filesystem::path& to);
+/// Copy the specimen of the folder `earlier`, if it is there, to the folder where the run
+/// continues, if that is another.
+void copy_specimen(const std::filesystem::path& earlier,
+                   const std::filesystem::path& folder);
 
 } // namespace mergel::apps

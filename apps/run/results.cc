@@ -2,6 +2,7 @@
 
 #include "apps/case/case_scan.h"
 #include "apps/case/words.h"
+#include "apps/run/tables.h"
 #include "dem/error.h"
 #include "dem/io/readable.h"
 #include "dem/io/state/checkpoint.h"
@@ -68,6 +69,15 @@ bool has_contacts(const fs::path& folder)
   for (const auto& entry : fs::directory_iterator(folder / "fields", error))
     if (entry.path().filename().string().starts_with("contacts_")) return true;
   return is_there(folder / "contacts.pvd");
+}
+
+/// Whether the run has written its specimen: before all else. One that was continued from a
+/// checkpoint alone, without the specimen, has none.
+bool owes_specimen(const fs::path& folder, const std::string& job, Extent extent)
+{
+  if (job == "sample") return true;
+  if (job != "pile" && job != "triaxial" && job != "brazilian") return false;
+  return extent == Extent::finished && !begins_at_checkpoint(folder / "history.csv");
 }
 
 /// The series that a finished run of this job leaves.
@@ -139,7 +149,9 @@ std::vector<std::string> missing_results(const fs::path& folder, const std::stri
     if (!is_there(folder / name)) missing.push_back(name);
   };
   owe("resolved.prm");
-  owe(job == "sample" ? "sample.h5" : "history.csv");
+  if (job.empty()) owe("history.csv");
+  for (const std::string& table : tables_of(job)) owe(table);
+  if (owes_specimen(folder, job, extent)) owe("sample.h5");
   const std::vector<std::string> owed = series_of(folder, job);
   for (const char* name : {"particles", "bonds", "pile", "far_field", "fields", "contacts",
                            "platens", "membrane", "breaks", "plates"}) {
@@ -155,13 +167,23 @@ std::vector<std::string> missing_results(const fs::path& folder, const std::stri
   return missing;
 }
 
+std::string lost_results(const fs::path& folder, const std::string& job)
+{
+  std::vector<std::string> missing = missing_results(folder, job, Extent::finished);
+  if (job != "sample") std::erase(missing, "sample.h5"); // not needed to go on
+  if (missing.empty()) return "";
+  const std::size_t n_more = missing.size() - 1;
+  return folder.string() + ": was changed while the run wrote there, and lacks " +
+         missing.front() +
+         (n_more == 0   ? ""
+          : n_more == 1 ? " and one more file"
+                        : " and " + std::to_string(n_more) + " more files");
+}
+
 void require_results(const fs::path& folder, const std::string& job)
 {
-  const std::vector<std::string> missing = missing_results(folder, job, Extent::finished);
-  if (missing.empty()) return;
-  throw NumericalError(folder.string() +
-                       ": was changed while the run wrote there, and lacks " +
-                       joined(missing, ", "));
+  const std::string lost = lost_results(folder, job);
+  if (!lost.empty()) throw NumericalError(lost);
 }
 
 } // namespace mergel::apps

@@ -150,6 +150,7 @@ TriaxialOutput::TriaxialOutput(const std::filesystem::path& folder, const Triaxi
              mark_in(state, bands_mark)),
       frames_(folder, kinds_of(c), earlier, state)
 {
+  copy_specimen(earlier, folder);
 }
 
 void TriaxialOutput::save(dem::State& state, const TriaxialOutput* output)

@@ -1,5 +1,6 @@
 #include "apps/run/results.h"
 
+#include "apps/run/tables.h"
 #include "dem/error.h"
 #include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
@@ -54,7 +55,7 @@ void write_triaxial_run(const fs::path& folder, const std::string& membrane)
         "subsection Specimen\nend\nsubsection Membrane\n set membrane = " + membrane +
             "\nend\nsubsection Platens\nend\nsubsection Loading\nend\n"
             "subsection Output\n set pictures = stages\nend\n");
-  for (const char* name : {"history.csv", "summary.json", "sample.h5"})
+  for (const char* name : {"history.csv", "localisation.csv", "summary.json", "sample.h5"})
     write(folder / name);
   for (const char* name : {"particles", "bonds", "contacts", "platens"})
     write_series(folder, name);
@@ -92,11 +93,30 @@ TEST_CASE("A finished run lacks every file that is removed from it", "[unit][app
   }
 }
 
-TEST_CASE("A triaxial run lacks every series that is removed, and no membrane without one",
+TEST_CASE("What a run has lost is said by its first file and a number", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  write_element_run(folder.path, "stages");
+  const std::string lacks =
+      folder.path.string() + ": was changed while the run wrote there, and lacks ";
+  CHECK(lost_results(folder.path, "element").empty());
+  fs::remove(folder.path / "fields/particles_0000.vtp");
+  CHECK(lost_results(folder.path, "element") == lacks + "fields/particles_0000.vtp");
+  fs::remove(folder.path / "fields/bonds_0000.vtp");
+  CHECK(lost_results(folder.path, "element") ==
+        lacks + "fields/particles_0000.vtp and one more file");
+  fs::remove_all(folder.path / "fields");
+  CHECK(lost_results(folder.path, "element") ==
+        lacks + "fields/particles_0000.vtp and 2 more files");
+}
+
+TEST_CASE("A triaxial run lacks every table, specimen and series that is removed, and no "
+          "membrane without one",
           "[unit][apps]")
 {
-  for (const char* removed : {"particles.pvd", "bonds.pvd", "platens.pvd", "membrane.pvd",
-                              "fields/platens_0000.vtp", "fields/membrane_0000.vtp"}) {
+  for (const char* removed :
+       {"sample.h5", "localisation.csv", "particles.pvd", "bonds.pvd", "platens.pvd",
+        "membrane.pvd", "fields/platens_0000.vtp", "fields/membrane_0000.vtp"}) {
     const TemporaryFolder folder;
     write_triaxial_run(folder.path, "true");
     REQUIRE(job_of(folder.path) == "triaxial");
@@ -109,10 +129,11 @@ TEST_CASE("A triaxial run lacks every series that is removed, and no membrane wi
   CHECK(missing_results(unconfined.path, "triaxial", Extent::finished).empty());
 }
 
-TEST_CASE("A Brazilian run lacks every series that is removed", "[unit][apps]")
+TEST_CASE("A Brazilian run lacks specimen and every series that is removed", "[unit][apps]")
 {
-  for (const char* removed : {"particles.pvd", "bonds.pvd", "plates.pvd", "breaks.pvd",
-                              "fields/plates_0000.vtp", "fields/breaks_0000.vtp"}) {
+  for (const char* removed :
+       {"sample.h5", "particles.pvd", "bonds.pvd", "plates.pvd", "breaks.pvd",
+        "fields/plates_0000.vtp", "fields/breaks_0000.vtp"}) {
     const TemporaryFolder folder;
     write_brazilian_run(folder.path);
     REQUIRE(job_of(folder.path) == "brazilian");
@@ -128,10 +149,13 @@ TEST_CASE("Series are owed by the jobs that write them, at the end", "[unit][app
   write_element_run(folder.path, "none");
   CHECK(missing_results(folder.path, "element", Extent::finished).empty());
   CHECK(missing_results(folder.path, "bond", Extent::finished).empty());
-  CHECK(missing_results(folder.path, "pile", Extent::begun).empty());
+  CHECK(missing_results(folder.path, "pile", Extent::begun) ==
+        Names{"shaft_profile.csv", "tip_profile.csv", "radial_profile.csv",
+              "stress_path.csv"});
   CHECK(missing_results(folder.path, "pile", Extent::finished) ==
-        Names{"particles.pvd", "bonds.pvd", "pile.pvd", "far_field.pvd", "fields.pvd",
-              "contacts.pvd"});
+        Names{"shaft_profile.csv", "tip_profile.csv", "radial_profile.csv",
+              "stress_path.csv", "sample.h5", "particles.pvd", "bonds.pvd", "pile.pvd",
+              "far_field.pvd", "fields.pvd", "contacts.pvd"});
   CHECK(missing_results(folder.path, "sample", Extent::finished) ==
         Names{"sample.h5", "particles.pvd", "bonds.pvd"}); // as earlier versions wrote it
   fs::create_directory(folder.path / "fields");
@@ -140,6 +164,61 @@ TEST_CASE("Series are owed by the jobs that write them, at the end", "[unit][app
         Names{"sample.h5", "particles.pvd", "bonds.pvd", "contacts.pvd"});
   write(folder.path / "particles.pvd", "no series");
   CHECK(missing_results(folder.path, "element", Extent::begun) == Names{"particles.pvd"});
+}
+
+TEST_CASE(
+    "A run that began at a checkpoint alone owes no specimen, nor does the end of a run",
+    "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  write_brazilian_run(folder.path);
+  fs::remove(folder.path / "sample.h5");
+  CHECK(missing_results(folder.path, "brazilian", Extent::finished) == Names{"sample.h5"});
+  CHECK_NOTHROW(require_results(folder.path, "brazilian"));
+  write(folder.path / "history.csv", "# begins behind 16 bytes of checksum 0, which are "
+                                     "missing\ntime [s]\n");
+  CHECK(missing_results(folder.path, "brazilian", Extent::finished).empty());
+}
+
+TEST_CASE("A table says what it has lost at its head and at its end", "[unit][apps]")
+{
+  const TemporaryFolder folder;
+  const fs::path file = folder.path / "history.csv";
+  const auto read = [&](const std::string& text) {
+    write(file, text);
+    return dem::read_table(file);
+  };
+  const std::string heading = "time [s],q [Pa]\n";
+  const std::string whole = heading + "0,0\n1e-3,1\n2e-3,2\n";
+  CHECK(lost_start(read(whole)).empty());
+  CHECK(lost_heading(file, "element").empty());
+  CHECK(lost_start(read(heading + "1e-6,0\n1e-3,1\n")).empty()); // a pile: its first step
+  CHECK_THAT(lost_start(read(heading + "1e-3,1\n2e-3,2\n")),
+             Contains("begins late, at time 0.001 s"));
+  CHECK(lost_start(
+            read("# begins behind 9 bytes of checksum 0\n" + heading + "1e-3,1\n2e-3,2\n"))
+            .empty());
+  const std::string pair = "u_n [m],u_s [m],theta [rad],N [N]\n";
+  CHECK(lost_start(read(pair + "0,0,0,0\n1e-6,0,0,2\n")).empty());
+  CHECK(lost_heading(file, "bond").empty());
+  CHECK_THAT(lost_start(read(pair + "1e-6,0,0,2\n")), Contains("begins late, at u_n"));
+
+  for (const char* cut : {"", "me [s],q [Pa]\n0,0\n", "1e-3,1\n2e-3,2\n"}) {
+    write(file, cut);
+    CHECK_THAT(lost_heading(file, "element"), Contains("its first lines are lost"));
+  }
+  write(file, "time [s],q [");
+  CHECK(lost_heading(file, "element") == "is cut in its heading");
+
+  CHECK(lost_end(read(whole), folder.path).empty());
+  CHECK_THAT(lost_end(read(whole + "3e-3"), folder.path), Contains("last line"));
+  write(folder.path / "particles.pvd",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\">\n"
+        "<Collection>\n<DataSet timestep=\"0.002\" part=\"0\" file=\"a.vtp\"/>\n"
+        "</Collection>\n</VTKFile>\n");
+  CHECK(lost_end(read(whole), folder.path).empty());
+  CHECK_THAT(lost_end(read(heading + "0,0\n1e-3,1\n"), folder.path),
+             Contains("ends at time 0.001 s, before the last fields at 0.002 s"));
 }
 
 TEST_CASE("The job of a folder is told by its case, else by its history", "[unit][apps]")
