@@ -27,7 +27,24 @@ void RunFolder::prepare()
   is_prepared_ = true;
 }
 
+void RunFolder::restore_case() const
+{
+  const fs::path resolved = path() / "resolved.prm";
+  std::error_code error; // one that cannot be reached is missed by lost_results()
+  if (fs::status(resolved, error).type() != fs::file_type::not_found) return;
+  file_.write_resolved(resolved, made_.remark());
+  std::cout << printable(resolved.string()) << ": was gone, and is written again\n";
+}
+
 namespace {
+
+std::string sentence_on_lost(const std::string& lost, bool has_checkpoint)
+{
+  return lost + (has_checkpoint
+                     ? ". The run is finished otherwise: its summary and the "
+                       "checkpoint of its end are written"
+                     : ". The run is finished otherwise: its summary is written");
+}
 
 std::vector<std::string> free_keys_of(const CheckpointedJob& job)
 {
@@ -159,17 +176,23 @@ int run_job(CheckpointedJob& job, const JobOptions& options, MPI_Comm comm)
     on_first_rank([&] { dem::replace_file(summary_file, summary.object()); });
     print_summary(summary_file, summary);
   };
+  std::string lost; // of the results, while the run went on
   try {
     job.run([&] { scheduler.after_step(all, job.position(), save); });
-    // A summary says that a run is finished: only once its results were looked at.
+    // A summary says that a run is finished: only once its history was looked at.
     job.require_files();
-    on_first_rank([&] { require_results(folder.path(), job.name()); });
+    on_first_rank([&] {
+      folder.restore_case();
+      lost = lost_results(folder.path(), job.name());
+    });
     summarise("summary.json", "");
   } catch (...) {
     scheduler.rethrow_with_remedy(
         [&](const std::string& failure) { summarise("failed.json", failure); });
   }
   if (job.checkpoints().at_end) scheduler.at_end(all, job.position(), save);
+  share(lost);
+  if (!lost.empty()) throw Remedied(sentence_on_lost(lost, job.checkpoints().at_end));
   return 0;
 }
 

@@ -46,6 +46,8 @@ public:
   /// @throws InputError as OutputFolder::commit() and require_shared()
   void prepare();
   bool is_prepared() const { return is_prepared_; }
+  /// Write resolved.prm again if it has gone since prepare(), and say so. On the first rank.
+  void restore_case() const;
 
 private:
   OutputFolder& folder_;

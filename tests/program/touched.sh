@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Results that another program touches while a run writes them: history.csv removed, renamed, saved
-# anew, emptied, a picture or the resolved case removed. The run ends with exit code 2, says what is
-# lost and where the last checkpoint is, and mergel info finds what is missing.
+# anew, emptied: the run ends with exit code 2, says what is lost and where the last checkpoint is. Pictures removed:
+# the run goes on to its end, and says it then. The resolved case is written again. mergel info finds what is missing.
 #
 # usage: tests/program/touched.sh MERGEL
 . "$(dirname "$0")/preamble.sh"
@@ -37,10 +37,32 @@ touched "removed" a 'a/history.csv: was removed, renamed or moved while the run 
 touched "renamed" b 'b/history.csv: was removed, renamed or moved' mv history.csv mine.csv
 touched "saved anew" c 'c/history.csv: was replaced by another file' saved_anew
 touched "emptied" d 'd/history.csv: has [0-9]* bytes where the run wrote [0-9]*' truncate -s 0 history.csv
-touched "a picture" e 'e: was changed while the run wrote there, and lacks fields/particles_0000.vtp' rm fields/particles_0000.vtp
-[ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q 'results folder, not finished' log &&
+
+# What the run does not need to go on is no reason to lose its summary and the checkpoint of its end.
+# finished_without CODE NAME FOLDER PATTERN COMMAND...
+finished_without()
+{
+  local wanted=$1 name=$2 folder=$3 pattern=$4 code=0
+  shift 4
+  launch "$mergel" element "$root/apps/cases/element_small.prm" "${tiny_cell[@]}" --output "$folder" >log 2>&1
+  wait_for has_lines "$folder" 4
+  kill -STOP $launched
+  (cd "$folder" && "$@") || fail "$name: $*"
+  kill -CONT $launched
+  wait $launched || code=$?
+  [ "$code" -eq "$wanted" ] && grep -q "$pattern" log || fail "$name: exit code $code: $(tail -3 log)"
+  code_of "$mergel" info "$folder" >/dev/null
+  [ -s "$folder/summary.json" ] && grep -q '^  checkpoint .*, finished, step .* good' log ||
+    fail "$name: a summary and the checkpoint of the end are wanted: $(ls "$folder")"
+}
+otherwise='\. The run is finished otherwise: its summary and the checkpoint of its end are written$'
+finished_without 2 "a picture" e "^e: was changed while the run wrote there, and lacks fields/particles_0000.vtp$otherwise" rm fields/particles_0000.vtp
+[ "$(code_of "$mergel" info e)" -eq 1 ] && grep -q 'results folder, incomplete' log &&
   grep -q '^  missing  *fields/particles_0000.vtp$' log || fail "info without a picture: $(cat log)"
-touched "the case" f 'f: was changed while the run wrote there, and lacks resolved.prm' rm resolved.prm
+finished_without 2 "all pictures" g "^g: was changed while the run wrote there, and lacks fields/particles_0000.vtp and [0-9]* more files$otherwise" rm -r fields
+exists 'g/fields/particles_*.vtp' || fail "the folder of the fields is not made again: $(ls g/fields)"
+finished_without 0 "the case" f '^f/resolved.prm: was gone, and is written again$' rm resolved.prm
+"$mergel" info f >log && grep -q 'results folder, finished' log || fail "info with a case that is written again: $(cat log)"
 
 # A finished folder: what is removed afterwards is found, and it is not called finished.
 element --output whole >log || fail "the whole run: $(tail -3 log)"
@@ -52,6 +74,28 @@ for name in history.csv resolved.prm particles.pvd fields/bonds_0001.vtp; do
   grep -q 'results folder, incomplete' log && grep -q "^  missing  *$name$" log || fail "info without $name: $(cat log)"
 done
 
+# The same of what is cut: at the head, with and without the heading, and at the end.
+# cut FILE "HOW" COMMAND...: what the command prints of it takes its place.
+cut_result()
+{
+  local file=$1 how=$2
+  shift 2
+  "$@" <"$from/$file" >cut
+  rm -rf part; cp -r "$from" part; cp cut "part/$file"
+  [ "$(code_of "$mergel" info part)" -eq 1 ] && grep -q 'results folder, incomplete' log && grep -q "$how" log ||
+    fail "info of a $file that is cut, wanted \"$how\": $(cat log)"
+}
+from=whole
+cut_result history.csv 'history.csv begins late, at time .*: its first records are lost' sed '2,4d'
+cut_result history.csv 'history.csv does not begin with its heading (time \[s\], ...): its first lines are lost' sed '1,3d'
+cut_result history.csv 'history.csv does not begin with its heading' tail -c 300
+cut_result history.csv 'history.csv does not begin with its heading' true
+cut_result history.csv 'history.csv is cut: its last line is not whole' head -c -5
+cut_result history.csv 'history.csv is cut: it ends at time .* s, before the last fields at .* s' head -n 4
+bounded "$mergel" bond "$root/apps/cases/bond_fig4a_tension.prm" --output bond >log || fail "a pair: $(tail -3 log)"
+"$mergel" info bond >log || fail "info of a pair: $(cat log)"
+from=bond cut_result history.csv 'history.csv begins late, at u_n .*: its first records are lost' sed '2,4d'
+
 # A triaxial test has series of its own, and the specimen that mergel sample makes of its case.
 cell=("$root/apps/cases/triaxial_small.prm" --set "Specimen/height=6 mm"
   --set "Loading/stage 1=isotropic to p = 0.1 MPa" --set "Loading/stage 2=")
@@ -60,7 +104,9 @@ bounded "$mergel" sample "${cell[@]}" --output specimens/cell >log || fail "its 
 cmp cell/sample.h5 specimens/cell/sample.h5 || fail "the specimen of a triaxial test differs"
 "$mergel" info specimens/cell >log && grep -q 'results folder, finished' log || fail "info of its specimen: $(cat log)"
 "$mergel" info cell >log && grep -q 'results folder, finished' log || fail "info of a triaxial test: $(cat log)"
-for name in membrane.pvd fields/platens_0001.vtp; do
+from=cell cut_result localisation.csv 'localisation.csv does not begin with its heading' true
+from=cell cut_result sample.h5 'sample.h5 .*' head -c 4000
+for name in membrane.pvd fields/platens_0001.vtp sample.h5 localisation.csv history.csv; do
   rm -rf part; cp -r cell part; rm "part/$name"
   [ "$(code_of "$mergel" info part)" -eq 1 ] && grep -q "^  missing  *$name$" log || fail "info without $name: $(cat log)"
 done
