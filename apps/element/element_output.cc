@@ -251,10 +251,9 @@ void summarise(Summary& summary, const ElementCase& c, const ElementSummary& s)
            "at "
         << 100.0 * strain << " % of axial strain, before " << 100.0 * critical_strain
         << " %\n";
-  out << "largest energy error " << s.worst_energy_error
-      << " of the work; strain rate up to " << s.largest_rate
+  out << servo_text(s.n_limited, s.n_steps) << "largest energy error "
+      << s.worst_energy_error << " of the work; strain rate up to " << s.largest_rate
       << " 1/s, inertial number up to " << s.largest_inertial_number;
-  if (s.n_limited > 0) out << "; " << s.n_limited << " rates were limited by the servo";
   out << "\ntime step " << s.dt << " s, ruled by " << dem::what_rules(s.stable_step) << '\n'
       << s.n_particles << " particles, " << s.n_steps << " steps, "
       << 1e9 * s.seconds / static_cast<double>(s.n_steps * s.n_particles)

@@ -182,6 +182,34 @@ std::optional<std::size_t> broken_in_approach(const std::vector<StagePoint>& poi
   return last->broken - first->broken;
 }
 
+/// Mean pressure at the offset yield of an approach that raises it: p over volumetric strain, both
+/// from where the approach begins.
+std::optional<double> yield_in_approach(const std::vector<StagePoint>& points,
+                                        std::size_t stage, const AnalysisKeys& keys)
+{
+  dem::Curve c;
+  const dem::SoilState* start = nullptr;
+  for (const StagePoint& p : points) {
+    if (p.stage != stage || !p.is_approach) continue;
+    if (!start) start = &p.of_stage;
+    const double strain = p.of_stage.volumetric_strain() - start->volumetric_strain();
+    if (!c.strain.empty() && strain <= c.strain.back()) continue; // waves
+    c.strain.push_back(strain);
+    c.stress.push_back(p.of_stage.p() - start->p());
+  }
+  const auto K = dem::secant(c, keys.secant_from, keys.secant_to);
+  if (!K || !(*K > 0.0)) return {};
+  const auto yield = dem::offset_yield(c, *K, keys.yield_offset, keys.secant_from);
+  if (!yield) return {};
+  return start->p() + yield->stress;
+}
+
+bool has_isotropic_yield(const StageResult& result)
+{
+  return std::any_of(result.findings.begin(), result.findings.end(),
+                     [](const Finding& f) { return f.name == "isotropic yield"; });
+}
+
 void read_path(std::vector<Finding>& found, const AnalysisKeys& keys,
                const dem::LoadingStage& stage, const Backbone& way)
 {
@@ -246,10 +274,14 @@ std::vector<StageResult> analyse(const std::vector<dem::LoadingStage>& stages,
                                  const std::vector<StagePoint>& points)
 {
   std::vector<StageResult> results;
+  std::string yielded; // number of the stage in which the specimen has yielded
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     const dem::LoadingStage& stage = stages[k];
     StageResult result{
         labels[k].name(), labels[k].text, outcomes[k], broken_in_approach(points, k), {}};
+    result.yield_in_approach = yield_in_approach(points, k, keys);
+    if (stage.kind != dem::PathKind::resume) result.yielded_before = yielded;
+    if (result.yield_in_approach) yielded = result.number;
     if (stage.kind == dem::PathKind::resume) {
       read_resumed(result.findings, points, k);
     } else {
@@ -260,6 +292,7 @@ std::vector<StageResult> analyse(const std::vector<dem::LoadingStage>& stages,
         result.name += ", analysed with the stages up to " + labels[last].name();
       const Backbone way(points, k, last);
       if (!way.is_empty()) read_path(result.findings, keys, stage, way);
+      if (has_isotropic_yield(result)) yielded = result.number;
     }
     results.push_back(std::move(result));
   }
@@ -279,6 +312,11 @@ std::string json_of(const std::vector<StageResult>& stages)
     if (stage.broken_in_approach)
       text += ",\n      \"bonds broken in the approach [-]\": " +
               std::to_string(*stage.broken_in_approach);
+    if (stage.yield_in_approach)
+      text += ",\n      \"p at yield in the approach [Pa]\": " +
+              number_in_json(*stage.yield_in_approach);
+    if (!stage.yielded_before.empty())
+      text += ",\n      \"yielded before in stage\": " + in_json(stage.yielded_before);
     for (const Finding& f : stage.findings)
       text += ",\n      \"" + f.name + " [" + f.unit + "]\": " + number_in_json(f.value);
     text += "\n    }";
@@ -288,6 +326,13 @@ std::string json_of(const std::vector<StageResult>& stages)
 }
 
 } // namespace
+
+std::string servo_text(std::size_t n_limited, std::size_t n_steps)
+{
+  if (n_limited == 0) return "";
+  return "the servo reached its largest rate " + std::to_string(n_limited) + " times in " +
+         std::to_string(n_steps) + " steps: there a stress was not what it should be\n";
+}
 
 void summarise(Summary& summary, const std::vector<StageResult>& stages,
                const AnalysisKeys& keys)
@@ -312,6 +357,13 @@ void summarise(Summary& summary, const std::vector<StageResult>& stages,
     if (stage.broken_in_approach.value_or(0) > 0)
       out << "stage " << stage.number << ": " << *stage.broken_in_approach
           << " bonds broke in the approach to its stress, before its readings\n";
+    if (stage.yield_in_approach)
+      out << "stage " << stage.number
+          << ": the specimen yielded in the approach to its stress, at p "
+          << 1e-6 * *stage.yield_in_approach << " MPa, before its readings\n";
+    if (!stage.yielded_before.empty())
+      out << "stage " << stage.number << ": the specimen had yielded before, in stage "
+          << stage.yielded_before << "\n";
   }
 }
 

@@ -45,6 +45,12 @@ struct StageResult {
   dem::Outcome outcome = dem::Outcome::goes_on;
   std::optional<std::size_t> broken_in_approach; ///< bonds; none without an approach
   std::vector<Finding> findings;
+  /// Mean pressure at which the specimen yielded in the approach, by the offset of the analysis
+  /// [Pa]; none where it did not.
+  std::optional<double> yield_in_approach = {};
+  /// Number of the isotropic stage, or of the stage with an approach, in which the specimen yielded
+  /// before; "" where it did not, and for stages that resume one.
+  std::string yielded_before = {};
 };
 
 /// Results of each stage that was begun. A stage that others resume is analysed with them.
@@ -56,6 +62,9 @@ std::vector<StageResult> analyse(const std::vector<dem::LoadingStage>& stages,
                                  const AnalysisKeys& keys,
                                  const std::vector<dem::Outcome>& outcomes,
                                  const std::vector<StagePoint>& points);
+
+/// A line on how often the servo reached its largest rate; "" where it never did.
+std::string servo_text(std::size_t n_limited, std::size_t n_steps);
 
 /// Add the results to summary.json, and lines for each stage to the closing text.
 void summarise(Summary& summary, const std::vector<StageResult>& stages,

@@ -157,6 +157,7 @@ void summarise(Summary& summary, const TriaxialCase& c, const coupling::Triaxial
   add_alarm(summary, test.state().alarm);
   summary.number("largest strain rate [1/s]", test.state().largest_rate);
   summary.number("largest inertial number [-]", extremes.inertial_number);
+  summary.count("rates cut at their limit [-]", test.state().n_limited);
   summary.count("particles [-]", system.assembly.particles.size());
   summary.count("steps [-]", system.n_steps);
   add_step(summary, system.stable_step, system.dt);
@@ -181,7 +182,8 @@ void summarise(Summary& summary, const TriaxialCase& c, const coupling::Triaxial
         << 100.0 * extremes.own_load << " % of the largest q or cell pressure"
         << (extremes.own_load > 0.02 ? " (above 2 %: q is corrected for it)" : "") << '\n';
   }
-  out << "platen forces differ by " << 100.0 * extremes.platen_difference
+  out << servo_text(test.state().n_limited, system.n_steps) << "platen forces differ by "
+      << 100.0 * extremes.platen_difference
       << " % of the largest q at most; largest energy error " << extremes.energy_error
       << " of the work; strain rate up to " << test.state().largest_rate
       << " 1/s, inertial number up to " << extremes.inertial_number << "\ntime step "

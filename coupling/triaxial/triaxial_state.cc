@@ -61,7 +61,8 @@ dem::CountsOf<State> counts_of(State& s)
   dem::CountsOf<State> all{{"stage", &s.stage},
                            {"steps of the stage", &s.n_in_stage},
                            {"steps held after the approach", &s.n_held},
-                           {"steps since the record", &s.n_sum}};
+                           {"steps since the record", &s.n_sum},
+                           {"rates limited by the servo", &s.n_limited}};
   dem::append_stage_counts(all, s.active);
   return all;
 }

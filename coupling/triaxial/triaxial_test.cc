@@ -205,7 +205,9 @@ void TriaxialTest::control(double rate)
     const double most = rate_limit_factor * 0.5 * full_rate(soil(s.axial)) * s.height;
     const double error = (held - platen_stress()) / (2.0 * s.density * wave_speed());
     v = error + s.servo_v;
-    if (std::abs(v) <= most)
+    if (std::abs(v) > most)
+      ++s.n_limited;
+    else
       s.servo_v += error * system_.dt * wave_speed() / (transits_of_servo * s.height);
     v = std::clamp(v, -most, most);
   } else {

@@ -82,7 +82,8 @@ struct TriaxialState {
   std::size_t n_sum = 0;
   double gross_work = 0.0, last_work = 0.0; ///< of platens and pressure [J]
   double largest_rate = 0.0;                ///< [1/s]
-  double stiffness = 0.0; ///< of the specimen if its particles follow the strain [Pa]
+  std::size_t n_limited = 0; ///< steps in which the servo wanted more than its largest rate
+  double stiffness = 0.0;    ///< of the specimen if its particles follow the strain [Pa]
   double density = 0.0, particle_density = 0.0; ///< of the rock, of the particles [kg/m^3]
   double mean_diameter = 0.0;                   ///< by mass [m]
   double volume_0 = 0.0;                        ///< enclosed before the test [m^3]

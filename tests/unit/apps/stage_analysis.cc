@@ -287,6 +287,59 @@ TEST_CASE("Bonds that break in an approach are counted, up to the start of the s
   CHECK(r[2].findings.empty());
 }
 
+TEST_CASE(
+    "A specimen that yields in an approach, or in isotropic compression, is said to have",
+    "[unit][apps]")
+{
+  // Bulk modulus 1 GPa to 1 MPa, then a tenth of it.
+  const auto compress = [](RecordedTest& t, std::size_t stage, bool is_approach) {
+    for (const auto& [v, p] :
+         {std::pair{0.0, 0.0}, {5e-4, 0.5e6}, {1e-3, 1e6}, {2e-3, 1.1e6}, {3e-3, 1.2e6}})
+      t.add(stage, v, dem::Vec3::Constant(1.0 - std::cbrt(1.0 - v)), dem::Vec3::Constant(p),
+            is_approach);
+  };
+  // The offset line, p = 1 GPa (v - 2e-4), meets p = 1 MPa + 0.1 GPa (v - 1e-3) at 1.1/0.9e-3.
+  const double p_yield = 1e6 * (1.0 + 0.1 * (1.1 / 0.9 - 1.0));
+  const dem::Vec3 held = dem::Vec3::Constant(1.2e6);
+
+  RecordedTest approached;
+  approached.stage("triaxial at 1.2 MPa to axial strain = 1 %");
+  compress(approached, 0, true);
+  approached.add(0, 0.0, dem::Vec3::Zero(), held);
+  approached.stage("triaxial to axial strain = 2 %");
+  approached.add(1, 0.0, dem::Vec3::Zero(), held);
+  const auto r = approached.results();
+  REQUIRE(r[0].yield_in_approach);
+  CHECK(*r[0].yield_in_approach == Approx(p_yield).epsilon(1e-9)); // round-off
+  CHECK(r[0].yielded_before.empty());
+  CHECK_FALSE(r[1].yield_in_approach);
+  CHECK(r[1].yielded_before == "1");
+  Summary summary;
+  summarise(summary, r, {});
+  CHECK_THAT(summary.closing.str(),
+             Contains("stage 1: the specimen yielded in the approach to its stress, at p "
+                      "1.022 MPa") &&
+                 Contains("stage 2: the specimen had yielded before, in stage 1\n"));
+  CHECK_THAT(summary.object(), Contains("\"p at yield in the approach [Pa]\": ") &&
+                                   Contains("\"yielded before in stage\": \"1\""));
+
+  RecordedTest consolidated;
+  consolidated.stage("isotropic to p = 1.2 MPa");
+  compress(consolidated, 0, false);
+  consolidated.stage("triaxial to axial strain = 2 %");
+  consolidated.add(1, 0.0, dem::Vec3::Zero(), held);
+  CHECK(consolidated.results()[1].yielded_before == "1");
+  CHECK(found(consolidated.results()[0], "isotropic yield") == Approx(p_yield));
+}
+
+TEST_CASE("How often the servo reached its largest rate is said where it did",
+          "[unit][apps]")
+{
+  CHECK(servo_text(0, 1000).empty());
+  CHECK_THAT(servo_text(12, 1000),
+             Contains("the servo reached its largest rate 12 times in 1000 steps"));
+}
+
 TEST_CASE("The friction angle is that of the largest and smallest stress along any axis",
           "[unit][apps]")
 {
