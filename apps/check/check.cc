@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <string>
 
 namespace mergel::apps {
@@ -18,12 +19,9 @@ namespace {
 
 struct CheckOptions {
   JobOptions of_case;
-  double cost = usual_cost; ///< of a particle and step [ns]
-  int n_ranks = 0;          ///< 0: those of this program
+  std::optional<double> cost; ///< of a particle and step [ns]; none: that of the plan
+  int n_ranks = 0;            ///< 0: those of this program
 };
-
-/// Processor time for the making of a specimen, for each particle [s] (apps/batch/README.md).
-constexpr double seconds_to_make = 1.6e-3;
 
 /// Reads the case file, whose text then belongs to the options.
 const Job& job_of(JobOptions& options)
@@ -46,11 +44,11 @@ std::string whole(double x)
 }
 
 /// "2.5 h", "40 min", "12 s".
-std::string duration(double hours)
+std::string duration(double seconds)
 {
-  if (hours >= 1.0) return three_digits(hours) + " h";
-  if (hours >= 1.0 / 60.0) return three_digits(60.0 * hours) + " min";
-  return three_digits(3600.0 * hours) + " s";
+  if (seconds >= 3600.0) return three_digits(seconds / 3600.0) + " h";
+  if (seconds >= 60.0) return three_digits(seconds / 60.0) + " min";
+  return three_digits(seconds) + " s";
 }
 
 void line(const std::string& name, const std::string& text)
@@ -68,10 +66,18 @@ void print_steps(const Plan& plan, const CheckOptions& o, int n_ranks)
              " s, within some 20 %: that of the smallest particle among `coordination` "
              "neighbours of mean size");
   line("steps", whole(plan.n_steps) + ": " + plan.steps_by);
-  line("time", duration(hours_of(plan, o.cost, n_ranks)) + " on " +
-                   std::to_string(n_ranks) + (n_ranks == 1 ? " rank" : " ranks") + " at " +
-                   three_digits(o.cost) +
-                   " ns a particle and step (--cost; mergel bench measures it)");
+  const double cost = o.cost.value_or(plan.cost);
+  const RunTime time = time_of(plan, cost, n_ranks);
+  const std::string membrane =
+      plan.step_overhead > 0.0
+          ? " and " + three_digits(1e6 * plan.step_overhead) + " us a step for the membrane"
+          : "";
+  line("time", duration(time.all()) + " on " + std::to_string(n_ranks) +
+                   (n_ranks == 1 ? " rank" : " ranks") + ": start " + duration(time.start) +
+                   (plan.is_made ? ", specimen " + duration(time.specimen) : "") +
+                   ", steps " + duration(time.steps) + " at " + three_digits(cost) +
+                   " ns a particle and step" + membrane +
+                   " (--cost; mergel bench measures it)");
 }
 
 void print(const Job& job, const Plan& plan, const CheckOptions& o)
@@ -83,8 +89,7 @@ void print(const Job& job, const Plan& plan, const CheckOptions& o)
   line("bonds", three_digits(plan.bonds_per_particle) + " a particle");
   if (plan.n_cells > 0.0) line("far field", whole(plan.n_cells) + " cells");
   if (plan.is_made)
-    line("specimen",
-         duration(seconds_to_make * plan.n_particles / 3600.0 / n_ranks) + " to make it");
+    line("specimen", duration(time_of(plan, plan.cost, n_ranks).specimen) + " to make it");
   if (plan.n_steps > 0.0) print_steps(plan, o, n_ranks);
   line("memory", three_digits(1e-9 * memory_of(plan)) + " GB of the first rank");
   std::cout << lines_of(plan.unusual);
@@ -112,6 +117,8 @@ void help_check(std::ostream& out)
          "this program\n"
          "  --cost NS                  time of a particle and step on one core; default "
       << usual_cost
+      << " ns,\n                             of bonded element and triaxial tests "
+      << cost_of_test
       << " ns\n\n"
          "A case that a job would refuse is refused with the same message, exit code 1. Of "
          "one that\ncan run: job, particles, step, steps, time and memory, all estimates "
@@ -131,7 +138,7 @@ std::function<int()> read_check(const std::vector<std::string>& arguments)
   parse(app, "mergel check", arguments);
   require(!o.of_case.case_file.empty(),
           "mergel check: no case file is given. See mergel check --help.");
-  require(std::isfinite(o.cost) && o.cost > 0.0,
+  require(!o.cost || (std::isfinite(*o.cost) && *o.cost > 0.0),
           "mergel check: --cost must be a positive number of nanoseconds.");
   require(o.n_ranks >= 0, "mergel check: --ranks must be positive.");
   return [o] { return run_check(o); };

@@ -117,6 +117,7 @@ Plan plan_of(const CaseFile& file, const ElementCase& c)
       c.specimen.is_granular() ? dem::BondLaw{} : c.bond.chosen(), c.contact.chosen()};
   Plan plan = plan_of_specimen(file, c.specimen, material, c.step.safety, c.inertia_factor);
   plan.unusual = unusual(c);
+  if (!c.specimen.is_granular()) plan.cost = cost_of_test;
   const double rate =
       c.inertial_number / (smallest_d_50(c.specimen) *
                            std::sqrt(c.specimen.specimen.rho / c.reference_pressure));

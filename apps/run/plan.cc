@@ -45,8 +45,8 @@ void remark_on_length(Plan& plan)
 {
   const std::string why = "is a rate too small, or a unit wrong?";
   expect_at_most(plan.unusual, "number of steps", plan.n_steps, most_steps, why);
-  expect_at_most(plan.unusual, "hours on one rank", hours_of(plan, usual_cost, 1),
-                 most_hours, why);
+  expect_at_most(plan.unusual, "hours on one rank",
+                 time_of(plan, plan.cost, 1).all() / 3600.0, most_hours, why);
 }
 
 double memory_of(const Plan& plan)
@@ -56,9 +56,12 @@ double memory_of(const Plan& plan)
   return bytes_of_program + std::max(bytes_of_cell * plan.n_cells, particles);
 }
 
-double hours_of(const Plan& plan, double cost, int n_ranks)
+RunTime time_of(const Plan& plan, double cost, int n_ranks)
 {
-  return plan.n_particles * plan.n_steps * cost / (3.6e12 * n_ranks);
+  const double of_step = 1e-9 * cost * plan.n_particles / n_ranks + plan.step_overhead;
+  return {seconds_to_start,
+          plan.is_made ? seconds_to_make * plan.n_particles / n_ranks : 0.0,
+          plan.n_steps * of_step};
 }
 
 } // namespace mergel::apps

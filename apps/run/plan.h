@@ -14,6 +14,15 @@ namespace mergel::apps {
 /// Time of a particle and step on one core, all in [ns]: 70 to 105 bonded, 130 unbonded, 145 with
 /// far field (apps/batch/README.md).
 inline constexpr double usual_cost = 130.0;
+/// The same of an element or triaxial test whose bonds yield and break; records and stresses of the
+/// cell count in it.
+inline constexpr double cost_of_test = 240.0;
+/// Processor time of a step for each triangle of a membrane, its contacts included [s].
+inline constexpr double seconds_of_triangle = 100e-9;
+/// Processor time for the making of a specimen, for each particle [s] (apps/batch/README.md).
+inline constexpr double seconds_to_make = 1.6e-3;
+/// Of the start of the program, on each rank [s]: its libraries, MPI.
+inline constexpr double seconds_to_start = 0.5;
 
 struct Plan {
   double n_particles = 0.0; ///< expected, or of the specimen's file
@@ -23,7 +32,10 @@ struct Plan {
   double n_cells = 0.0; ///< of the far field
   double step = 0.0;    ///< [s]; 0: the job makes none
   double n_steps = 0.0;
-  std::string steps_by; ///< the rule
+  std::string steps_by;     ///< the rule
+  double cost = usual_cost; ///< of a particle and step [ns]
+  /// Processor time of a step beside its particles, that of a membrane [s].
+  double step_overhead = 0.0;
   Remarks unusual;
 };
 
@@ -34,7 +46,7 @@ Plan plan_of_specimen(const CaseFile& file, const SpecimenKeys& k,
                       const dem::PairMaterials& material, double step_safety,
                       double inertia_factor);
 
-/// Steps and hours, on one core at the usual cost, that hardly anybody waits for.
+/// Steps and hours, on one core at the cost of the plan, that hardly anybody waits for.
 void remark_on_length(Plan& plan);
 
 /// The plan of a case file: reads and checks it as the job does, then asks plan_of(file, case).
@@ -56,7 +68,12 @@ Plan plan_case(const JobOptions& options)
 /// (apps/batch/README.md, Sizing a run).
 double memory_of(const Plan& plan);
 
-/// Hours of a run. @param cost of a particle and step [ns]
-double hours_of(const Plan& plan, double cost, int n_ranks);
+/// What a run takes, by its parts [s].
+struct RunTime {
+  double start = 0.0, specimen = 0.0, steps = 0.0;
+  double all() const { return start + specimen + steps; }
+};
+/// @param cost of a particle and step [ns]
+RunTime time_of(const Plan& plan, double cost, int n_ranks);
 
 } // namespace mergel::apps

@@ -28,6 +28,9 @@ Plan plan_of(const CaseFile& file, const TriaxialCase& c)
   Plan plan =
       plan_of_specimen(file, c.specimen, c.material, c.step.safety, c.inertia_factor);
   plan.unusual = unusual(c);
+  if (!c.specimen.is_granular()) plan.cost = cost_of_test;
+  if (c.membrane.is_there)
+    plan.step_overhead = seconds_of_triangle * 2.0 * c.tube.n_around * c.tube.n_high;
   const dem::SpecimenSpec& s = c.specimen.specimen;
   const double E = estimated_modulus(c.specimen, c.material);
   // v of each platen sends a wave of rho c v = v sqrt(E rho)
