@@ -17,8 +17,9 @@ enum class Extent {
   finished ///< and its specimen and every series
 };
 
-/// The files that a results folder lacks, relative to it: those that the job owes, with its tables
-/// and, of a finished run, its specimen, and those that a series (.pvd) names. A series that cannot be read counts as missing.
+/// The files that a results folder lacks, relative to it: those that the job owes, with its
+/// tables and, of a finished run, its specimen, and those that a series (.pvd) names. A series
+/// that cannot be read counts as missing.
 /// @param job as of job_of(); with "" no series is owed
 std::vector<std::string> missing_results(const std::filesystem::path& folder,
                                          const std::string& job, Extent extent);
