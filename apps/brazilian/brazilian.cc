@@ -7,7 +7,7 @@
 #include "apps/run/ranks.h"
 #include "apps/run/step_report.h"
 #include "apps/specimen/specimen.h"
-#include "dem/assembly/distribute.h"
+#include "dem/continuum/particle_stress.h"
 #include "dem/text.h"
 
 #include <algorithm>
@@ -144,9 +144,21 @@ std::string BrazilianJob::record()
 
 void BrazilianJob::frame()
 {
-  const auto assembly = dem::gather_on_first_rank(system_->assembly);
-  on_first_rank(
-      [&] { output_->frame(system_->time, *assembly, *system_, *test_, porosity_); });
+  dem::Assembly& assembly = system_->assembly;
+  assembly.partition.gather_motion(assembly.particles, assembly.comm);
+  const auto fits = dem::local_deformations(system_->x_0, assembly.particles);
+  std::vector<dem::LoadedBranch> branches;
+  on_every_rank([&] { branches = dem::loaded_branches(assembly); });
+  const dem::FrameFiles frame({assembly, system_->x_0, branches,
+                               dem::strained_porosity(porosity_, fits),
+                               dem::strain_fields(fits)});
+  dem::AssemblyFiles files;
+  on_first_rank([&] {
+    output_->require_in_place();
+    files = output_->files();
+  });
+  write_together(frame, files, [&] { output_->write_fields(assembly, *test_); });
+  on_first_rank([&] { output_->add_frame(system_->time); });
 }
 
 std::string BrazilianJob::now() const

@@ -1,10 +1,6 @@
 #include "apps/brazilian/brazilian_output.h"
 
 #include "apps/run/restart.h"
-#include "dem/assembly/local_strain.h"
-#include "dem/continuum/particle_stress.h"
-#include "dem/io/assembly_fields.h"
-#include "dem/io/assembly_frame.h"
 
 namespace mergel::apps {
 
@@ -168,25 +164,16 @@ void BrazilianOutput::record(const coupling::BrazilianRecord& r)
                 r.stable_step});
 }
 
-void BrazilianOutput::frame(double time, const dem::Assembly& assembly,
-                            const coupling::CoupledSystem& system,
-                            const coupling::BrazilianTest& test, double porosity)
+dem::AssemblyFiles BrazilianOutput::files() const
 {
-  require_in_place();
-  std::vector<dem::Vec3> x;
-  std::vector<double> R;
-  for (const dem::ParticleState& b : assembly.particles.state) {
-    x.push_back(b.x);
-    R.push_back(b.R);
-  }
-  const auto fits = dem::local_deformations(system.x_0, x, R);
-  const auto branches = dem::loaded_branches(assembly, {});
-  dem::write_frame({frames_.file(0), frames_.file(1), frames_.file(4)},
-                   {assembly, system.x_0, branches, dem::strained_porosity(porosity, fits),
-                    dem::strain_fields(fits)});
+  return {frames_.file(0), frames_.file(1), frames_.file(4)};
+}
+
+void BrazilianOutput::write_fields(const dem::Assembly& assembly,
+                                   const coupling::BrazilianTest& test) const
+{
   write_breaks(frames_.file(2), test.breaks());
   write_plates(frames_.file(3), assembly, disc_);
-  frames_.add(time);
 }
 
 } // namespace mergel::apps

@@ -24,12 +24,14 @@ public:
   void record(const coupling::BrazilianRecord& r);
   /// @throws NumericalError when another program has touched the history
   void require_in_place() const { history_.require_in_place(); }
-  /// Particles, bonds, contacts, breaks and plates at this time [s].
-  /// @param assembly gathered: all particles
-  /// @param porosity of the disc before the test, for the stress of the particles [-]
-  void frame(double time, const dem::Assembly& assembly,
-             const coupling::CoupledSystem& system, const coupling::BrazilianTest& test,
-             double porosity);
+  /// The next frame consists of particles, bonds and contacts, which any rank may write into these
+  /// files,
+  dem::AssemblyFiles files() const;
+  /// of breaks and plates,
+  void write_fields(const dem::Assembly& assembly,
+                    const coupling::BrazilianTest& test) const;
+  /// and of a line in each series, when all files are there. @param time [s]
+  void add_frame(double time) { frames_.add(time); }
 
 private:
   coupling::DiscGeometry disc_;

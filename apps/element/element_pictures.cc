@@ -1,9 +1,7 @@
 #include "apps/element/element_pictures.h"
 
 #include "apps/run/ranks.h"
-#include "dem/assembly/distribute.h"
 #include "dem/continuum/particle_stress.h"
-#include "dem/io/assembly_frame.h"
 
 #include <cmath>
 
@@ -70,22 +68,17 @@ bool ElementPictures::update(bool stage_ends)
 void ElementPictures::take_picture()
 {
   dem::Assembly& mine = run_.assembly();
-  if (x_0_.empty()) {
-    mine.partition.gather_motion(mine.particles, mine.comm);
+  mine.partition.gather_motion(mine.particles, mine.comm);
+  if (x_0_.empty())
     for (const dem::ParticleState& b : mine.particles.state) x_0_.push_back(b.x);
-  }
   size_last_ = mine.cell.size;
-  const auto assembly = dem::gather_on_first_rank(mine);
-  on_first_rank([&] {
-    const auto branches = dem::loaded_branches(*assembly, {});
-    dem::write_frame({frames_->file(0), frames_->file(1), frames_->file(2)},
-                     {*assembly,
-                      x_0_,
-                      branches,
-                      dem::even_porosity(assembly->particles, assembly->cell.volume()),
-                      {}});
-    frames_->add(run_.state().time);
-  });
+  const auto branches = dem::loaded_branches(mine);
+  const dem::FrameFiles frame(
+      {mine, x_0_, branches, dem::even_porosity(mine.particles, mine.cell.volume()), {}});
+  dem::AssemblyFiles files;
+  on_first_rank([&] { files = {frames_->file(0), frames_->file(1), frames_->file(2)}; });
+  write_together(frame, files, [] {});
+  on_first_rank([&] { frames_->add(run_.state().time); });
 }
 
 } // namespace mergel::apps

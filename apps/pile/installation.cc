@@ -3,7 +3,6 @@
 #include "apps/run/progress.h"
 #include "apps/run/ranks.h"
 #include "apps/run/step_report.h"
-#include "dem/assembly/distribute.h"
 #include "dem/text.h"
 
 #include <algorithm>
@@ -174,9 +173,24 @@ std::string Installation::read_overlaps()
 
 void Installation::frame()
 {
-  const auto at_walls = dem::gather_wall_forces(coupled_.assembly);
-  const auto assembly = dem::gather_on_first_rank(coupled_.assembly);
-  on_first_rank([&] { output_->frame(time_, *assembly, at_walls, coupled_); });
+  dem::Assembly& assembly = coupled_.assembly;
+  assembly.partition.gather_motion(assembly.particles, assembly.comm);
+  const std::vector<dem::Vec3> x_last =
+      assembly.comm.gather(output_ ? output_->x_last() : std::vector<dem::Vec3>{});
+  const FrameInput input{assembly, coupled_.x_0, x_last.empty() ? coupled_.x_0 : x_last};
+  std::optional<PileContinuum> continuum;
+  on_every_rank(
+      [&] { continuum.emplace(continuum_spec(case_, assembly.particles), input); });
+  continuum->add_ranks();
+  const dem::FrameFiles frame({assembly, coupled_.x_0, continuum->branches(),
+                               continuum->porosity(), continuum->particle_fields()});
+  dem::AssemblyFiles files;
+  on_first_rank([&] {
+    output_->require_in_place();
+    files = output_->files();
+  });
+  write_together(frame, files, [&] { output_->write_fields(*continuum, coupled_); });
+  on_first_rank([&] { output_->add_frame(time_, *continuum, assembly); });
 }
 
 std::string Installation::now() const

@@ -11,13 +11,7 @@ namespace {
 
 std::vector<dem::DeformationFit> fits_since_last(const FrameInput& frame)
 {
-  std::vector<dem::Vec3> x;
-  std::vector<double> R;
-  for (const dem::ParticleState& b : frame.assembly.particles.state) {
-    x.push_back(b.x);
-    R.push_back(b.R);
-  }
-  return dem::local_deformations(frame.x_last, x, R);
+  return dem::local_deformations(frame.x_last, frame.assembly.particles);
 }
 
 dem::ParticleValues values_of(const FrameInput& frame,
@@ -26,11 +20,13 @@ dem::ParticleValues values_of(const FrameInput& frame,
 {
   const dem::Particles& p = frame.assembly.particles;
   dem::ParticleValues v;
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  p.for_owned([&](dem::Index i) {
     v.displacement.push_back(p.state[i].x - frame.x_0[i]);
     v.increment.push_back(p.state[i].x - frame.x_last[i]);
-    v.volumetric.push_back(dem::volumetric_strain(fits[i].F));
-    v.shear.push_back(dem::shear_strain(fits[i].F));
+  });
+  for (const dem::DeformationFit& fit : fits) {
+    v.volumetric.push_back(dem::volumetric_strain(fit.F));
+    v.shear.push_back(dem::shear_strain(fit.F));
   }
   v.damage = dem::particle_damage(frame.assembly);
   v.coordination = dem::coordination(p, branches);
@@ -50,8 +46,7 @@ dem::SectionSums sums_of(const ContinuumSpec& spec, const FrameInput& frame,
 } // namespace
 
 PileContinuum::PileContinuum(const ContinuumSpec& spec, const FrameInput& frame)
-    : frame_(frame), spec_(spec),
-      branches_(dem::loaded_branches(frame.assembly, frame.at_walls)),
+    : frame_(frame), spec_(spec), branches_(dem::loaded_branches(frame.assembly)),
       fits_(fits_since_last(frame)), values_(values_of(frame, branches_, fits_)),
       sums_(sums_of(spec, frame, branches_, values_))
 {
@@ -61,8 +56,10 @@ std::vector<double> PileContinuum::porosity() const
 {
   const dem::SectionGrid& grid = sums_.grid();
   std::vector<double> porosity;
-  for (const dem::ParticleState& b : frame_.assembly.particles.state) {
-    const std::ptrdiff_t at = grid.cell_at({b.x.x(), std::abs(b.x.y()), b.x.z()});
+  const dem::Particles& p = frame_.assembly.particles;
+  p.for_owned([&](dem::Index i) {
+    const dem::Vec3& x = p.state[i].x;
+    const std::ptrdiff_t at = grid.cell_at({x.x(), std::abs(x.y()), x.z()});
     double n = 1.0 - dem::smallest_solid; // of debris outside of the grid
     if (at >= 0) {
       const auto columns = static_cast<std::ptrdiff_t>(grid.n_columns());
@@ -72,15 +69,16 @@ std::vector<double> PileContinuum::porosity() const
         n = std::max(0.0, dem::SectionSums::average(window).porosity);
     }
     porosity.push_back(n);
-  }
+  });
   return porosity;
 }
 
 std::vector<dem::Field> PileContinuum::particle_fields() const
 {
   dem::Field layer{"layer [-]", 1, {}};
-  for (const dem::Vec3& x : frame_.x_0)
-    layer.values.push_back(std::floor(-x.z() / spec_.layer));
+  frame_.assembly.particles.for_owned([&](dem::Index i) {
+    layer.values.push_back(std::floor(-frame_.x_0[i].z() / spec_.layer));
+  });
   std::vector<dem::Field> fields{
       dem::vector_field("displacement increment [m]", values_.increment)};
   for (dem::Field& field : dem::strain_fields(fits_)) {

@@ -1,10 +1,8 @@
 #include "apps/pile/pile_output.h"
 
-#include "apps/pile/pile_continuum.h"
 #include "apps/run/restart.h"
+#include "dem/continuum/shaft_profile.h"
 #include "dem/error.h"
-#include "dem/io/assembly_fields.h"
-#include "dem/io/assembly_frame.h"
 #include "dem/io/atomic_file.h"
 #include "dem/version.h"
 
@@ -154,33 +152,41 @@ void PileOutput::record(const PileRecord& r, const ShaftRings& rings,
                 static_cast<double>(r.overlaps.beyond_high_mark)});
 }
 
-void PileOutput::frame(double time, const dem::Assembly& assembly,
-                       std::vector<dem::WallContactForce> at_walls,
-                       const coupling::CoupledSystem& coupled)
+ContinuumSpec continuum_spec(const PileCase& c, const dem::Particles& p)
 {
-  require_in_place();
-  const double D = case_.diameter, d_50 = dem::finest_d_50(assembly.particles),
-               w = case_.averaging_length * d_50;
-  const FrameInput input{assembly, std::move(at_walls), coupled.x_0,
-                         x_last_.empty() ? coupled.x_0 : x_last_};
-  const PileContinuum continuum({0.5 * case_.assembly.diameter, case_.assembly.height,
-                                 height_over_surface * D, w, layer * D},
-                                input);
-  dem::write_frame({frames_.file(0), frames_.file(1), frames_.file(5)},
-                   {assembly, coupled.x_0, continuum.branches(), continuum.porosity(),
-                    continuum.particle_fields()});
+  const double D = c.diameter;
+  return {0.5 * c.assembly.diameter, c.assembly.height, height_over_surface * D,
+          c.averaging_length * dem::finest_d_50(p), layer * D};
+}
+
+dem::AssemblyFiles PileOutput::files() const
+{
+  return {frames_.file(0), frames_.file(1), frames_.file(5)};
+}
+
+void PileOutput::write_fields(const PileContinuum& continuum,
+                              const coupling::CoupledSystem& coupled) const
+{
+  const dem::Assembly& assembly = coupled.assembly;
   const dem::RigidWall& pile = assembly.rigid_walls.front();
   const auto write_pile =
       assembly.mirrors.empty() ? dem::write_revolution : dem::write_half_revolution;
   write_pile(frames_.file(2), std::get<dem::Revolution>(pile.shape), pile.x, pile.rotation,
-             2.0 * D);
+             2.0 * case_.diameter);
   dem::replace_file(frames_.file(3), [&](const std::filesystem::path& path) {
     far_field_of(coupled).write_vtu(path, dem::program_text());
   });
   continuum.write_section(frames_.file(4));
-  const double z_tip = pile.x.z();
-  profiles_.add({time, -z_tip - case_.tip_height(), z_tip, w, d_50}, continuum.sums(),
-                shaft_);
+}
+
+void PileOutput::add_frame(double time, const PileContinuum& continuum,
+                           const dem::Assembly& assembly)
+{
+  const double z_tip = assembly.rigid_walls.front().x.z(),
+               d_50 = dem::finest_d_50(assembly.particles);
+  profiles_.add(
+      {time, -z_tip - case_.tip_height(), z_tip, case_.averaging_length * d_50, d_50},
+      continuum.sums(), shaft_);
   frames_.add(time);
   x_last_.clear();
   for (const dem::ParticleState& b : assembly.particles.state) x_last_.push_back(b.x);

@@ -3,6 +3,7 @@
 
 #include "apps/coupled/system_of_case.h"
 #include "apps/pile/pile_case.h"
+#include "apps/pile/pile_continuum.h"
 #include "apps/pile/pile_profiles.h"
 #include "apps/run/frames.h"
 #include "dem/assembly/overlaps.h"
@@ -36,6 +37,9 @@ struct PileRecord {
   dem::Overlaps overlaps;                    ///< largest since the last record
 };
 
+/// Size of the section and of its windows, `averaging length` in d_50 of the finest particles.
+ContinuumSpec continuum_spec(const PileCase& c, const dem::Particles& p);
+
 class PileOutput {
 public:
   /// @param c must outlive the object
@@ -62,13 +66,17 @@ public:
     history_.require_in_place();
     profiles_.require_in_place();
   }
-  /// Particles, bonds, pile, far field, continuum fields and contacts at this time [s], and a
-  /// line of each profile.
-  /// @param assembly gathered: all particles
-  /// @param at_walls dem::gather_wall_forces()
-  void frame(double time, const dem::Assembly& assembly,
-             std::vector<dem::WallContactForce> at_walls,
-             const coupling::CoupledSystem& coupled);
+  /// The next frame consists of particles, bonds and contacts, which any rank may write into these
+  /// files,
+  dem::AssemblyFiles files() const;
+  /// of pile, far field and continuum fields,
+  void write_fields(const PileContinuum& continuum,
+                    const coupling::CoupledSystem& coupled) const;
+  /// and of a line in each profile and series, when all files are there. @param time [s]
+  void add_frame(double time, const PileContinuum& continuum,
+                 const dem::Assembly& assembly);
+  /// Positions of all particles at the last frame [m]; empty before the first.
+  const std::vector<dem::Vec3>& x_last() const { return x_last_; }
 
   /// Add what the profiles show.
   void summarise(Summary& summary) const { profiles_.summarise(summary); }
@@ -79,8 +87,7 @@ private:
   Frames frames_;
   PileProfiles profiles_;
   ShaftStress shaft_;
-  std::vector<dem::Vec3>
-      x_last_; ///< positions at the last frame [m]; empty before the first
+  std::vector<dem::Vec3> x_last_;
 };
 
 } // namespace mergel::apps

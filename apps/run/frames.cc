@@ -1,5 +1,6 @@
 #include "apps/run/frames.h"
 
+#include "apps/run/ranks.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
 
@@ -47,6 +48,20 @@ void copy_specimen(const std::filesystem::path& earlier,
   constexpr const char* name = "sample.h5";
   if (!std::filesystem::equivalent(folder, earlier) && is_there(earlier / name))
     copy_atomically(earlier / name, folder / name);
+}
+
+void write_together(const dem::FrameFiles& frame, dem::AssemblyFiles files,
+                    const std::function<void()>& others)
+{
+  for (std::filesystem::path* file : {&files.particles, &files.bonds, &files.contacts}) {
+    std::string name = file->string();
+    share(name);
+    *file = name;
+  }
+  on_every_rank([&] {
+    frame.write(files);
+    if (is_first_rank()) others();
+  });
 }
 
 Frames::Frames(const std::filesystem::path& folder, std::vector<Kind> kinds)

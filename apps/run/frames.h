@@ -2,10 +2,11 @@
 /// kind.
 #pragma once
 
+#include "dem/io/assembly_frame.h"
 #include "dem/io/state/state_file.h"
-#include "dem/io/vtk.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -49,5 +50,12 @@ private:
 /// continues, if that is another.
 void copy_specimen(const std::filesystem::path& earlier,
                    const std::filesystem::path& folder);
+
+/// Write the assembly's files of a frame, each rank those that it has, while the first rank also
+/// runs `others`. Collective.
+/// @param files names on the first rank; the others get them from there
+/// @throws CollectiveFailure on all ranks when one of them cannot write
+void write_together(const dem::FrameFiles& frame, dem::AssemblyFiles files,
+                    const std::function<void()>& others);
 
 } // namespace mergel::apps

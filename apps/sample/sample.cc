@@ -109,15 +109,12 @@ void write_pictures(const std::filesystem::path& folder, const dem::Assembly& as
   const dem::Particles& p = assembly.particles;
   std::vector<dem::Vec3> x;
   for (const dem::ParticleState& b : p.state) x.push_back(b.x);
-  const auto branches = dem::loaded_branches(assembly, {});
-  dem::write_frame({frames.file(0), frames.file(1), frames.file(2)},
-                   {assembly,
-                    x,
-                    branches,
-                    assembly.cell.is_periodic()
-                        ? dem::even_porosity(p, assembly.cell.volume())
-                        : std::vector<double>(p.size(), porosity),
-                    {}});
+  const auto branches = dem::loaded_branches(assembly);
+  const auto around = assembly.cell.is_periodic()
+                          ? dem::even_porosity(p, assembly.cell.volume())
+                          : std::vector<double>(p.size(), porosity);
+  dem::FrameFiles({assembly, x, branches, around, {}})
+      .write({frames.file(0), frames.file(1), frames.file(2)});
   frames.add(0.0);
 }
 

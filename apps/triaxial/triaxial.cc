@@ -10,9 +10,8 @@
 #include "apps/triaxial/triaxial_plan.h"
 #include "apps/triaxial/triaxial_summary.h"
 #include "dem/assembly/averages.h"
-#include "dem/assembly/distribute.h"
 #include "dem/collective_failure.h"
-#include "dem/continuum/loaded_branches.h"
+#include "dem/continuum/particle_stress.h"
 #include "dem/io/state/named_rows.h"
 
 #include <algorithm>
@@ -72,6 +71,7 @@ private:
   bool bands_are_due(bool stage_ends) const;
   std::vector<dem::Vec3> positions();
   void write_fields(bool frame, bool bands);
+  void write_frame(const coupling::LocalStrains& strains);
 
   TriaxialCase case_;
   coupling::SpecimenGeometry geometry_;
@@ -249,29 +249,41 @@ void TriaxialJob::write_fields(bool frame, bool bands)
 {
   const std::vector<dem::Vec3> x = positions();
   const double strain = axial_strain();
-  const auto assembly = frame ? dem::gather_on_first_rank(system_->assembly) : std::nullopt;
-  const auto at_walls = frame ? dem::gather_wall_forces(system_->assembly)
-                              : std::vector<dem::WallContactForce>{};
-  const double e = test_->geometry().void_ratio;
-  coupling::BandRecord found;
-  on_first_rank([&] {
-    std::vector<double> R;
-    for (const dem::ParticleState& b : system_->assembly.particles.state) R.push_back(b.R);
-    const auto strains = coupling::local_strains(system_->x_0, earlier_->x(strain), x, R);
-    if (bands) {
-      found = coupling::find_bands(x, strains, case_.d_50());
+  const auto strains = coupling::local_strains(system_->x_0, earlier_->x(strain),
+                                               system_->assembly.particles);
+  if (bands) {
+    const auto all = coupling::gather_on_first_rank(strains, system_->assembly);
+    coupling::BandRecord found;
+    on_first_rank([&] {
+      found = coupling::find_bands(x, all, case_.d_50());
       found.time = test_->state().time;
       found.stage = test_->state().stage;
       found.axial_strain = strain;
       found.increment = earlier_->increment(strain);
       output_->record(found, case_.d_50(), label());
-    }
-    if (frame)
-      output_->frame(test_->state().time, *assembly, at_walls, *system_, strains,
-                     e / (1.0 + e));
-  });
-  if (bands) bands_.push_back(found);
+    });
+    bands_.push_back(found);
+  }
+  if (frame) write_frame(strains);
   if (earlier_->is_due(strain)) earlier_->add(strain, x);
+}
+
+void TriaxialJob::write_frame(const coupling::LocalStrains& strains)
+{
+  const dem::Assembly& assembly = system_->assembly;
+  const double e = test_->geometry().void_ratio;
+  std::vector<dem::LoadedBranch> branches;
+  on_every_rank([&] { branches = dem::loaded_branches(assembly); });
+  const dem::FrameFiles frame({assembly, system_->x_0, branches,
+                               dem::strained_porosity(e / (1.0 + e), strains.total),
+                               fields_of(strains)});
+  dem::AssemblyFiles files;
+  on_first_rank([&] {
+    output_->require_in_place();
+    files = output_->files();
+  });
+  write_together(frame, files, [&] { output_->write_fields(*system_); });
+  on_first_rank([&] { output_->add_frame(test_->state().time); });
 }
 
 bool TriaxialJob::frame_is_due(bool stage_ends) const

@@ -2,9 +2,6 @@
 
 #include "apps/run/restart.h"
 #include "apps/triaxial/band_output.h"
-#include "dem/continuum/particle_stress.h"
-#include "dem/io/assembly_fields.h"
-#include "dem/io/assembly_frame.h"
 #include "dem/text.h"
 
 namespace mergel::apps {
@@ -96,17 +93,6 @@ triangles_of(const std::vector<dem::Triangle>& triangles, std::size_t first = 0)
     all.push_back(to);
   }
   return all;
-}
-
-/// Of the total, and "shear strain of the increment [-]" and so on.
-std::vector<dem::Field> fields_of(const coupling::LocalStrains& strains)
-{
-  std::vector<dem::Field> fields = dem::strain_fields(strains.total);
-  for (dem::Field& field : dem::strain_fields(strains.increment)) {
-    field.name.insert(field.name.find(" ["), " of the increment");
-    fields.push_back(std::move(field));
-  }
-  return fields;
 }
 
 /// At the nodes, for the writer of surfaces has no cell data: mean of the triangles around.
@@ -234,16 +220,23 @@ void TriaxialOutput::record(const coupling::BandRecord& r, double d_50,
   bands_.add(band_line(r, d_50, stage));
 }
 
-void TriaxialOutput::frame(double time, const dem::Assembly& assembly,
-                           const std::vector<dem::WallContactForce>& at_walls,
-                           const coupling::CoupledSystem& system,
-                           const coupling::LocalStrains& strains, double porosity)
+std::vector<dem::Field> fields_of(const coupling::LocalStrains& strains)
 {
-  require_in_place();
-  const auto branches = dem::loaded_branches(assembly, at_walls);
-  dem::write_frame({frames_.file(0), frames_.file(1), frames_.file(3)},
-                   {assembly, system.x_0, branches,
-                    dem::strained_porosity(porosity, strains.total), fields_of(strains)});
+  std::vector<dem::Field> fields = dem::strain_fields(strains.total);
+  for (dem::Field& field : dem::strain_fields(strains.increment)) {
+    field.name.insert(field.name.find(" ["), " of the increment");
+    fields.push_back(std::move(field));
+  }
+  return fields;
+}
+
+dem::AssemblyFiles TriaxialOutput::files() const
+{
+  return {frames_.file(0), frames_.file(1), frames_.file(3)};
+}
+
+void TriaxialOutput::write_fields(const coupling::CoupledSystem& system) const
+{
   std::vector<dem::Vec3> nodes;
   std::vector<std::array<dem::Index, 3>> triangles;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -260,7 +253,6 @@ void TriaxialOutput::frame(double time, const dem::Assembly& assembly,
                        triangles_of(system.assembly.walls[2].topology.triangles),
                        membrane_fields(membrane.motion()));
   }
-  frames_.add(time);
 }
 
 } // namespace mergel::apps

@@ -32,18 +32,21 @@ public:
     history_.require_in_place();
     bands_.require_in_place();
   }
-  /// Particles, bonds, contacts, platens and membrane at this time [s].
-  /// @param assembly gathered: all particles
-  /// @param at_walls dem::gather_wall_forces()
-  /// @param porosity of the core before the test, for the stress of the particles [-]
-  void frame(double time, const dem::Assembly& assembly,
-             const std::vector<dem::WallContactForce>& at_walls,
-             const coupling::CoupledSystem& system, const coupling::LocalStrains& strains,
-             double porosity);
+  /// The next frame consists of particles, bonds and contacts, which any rank may write into these
+  /// files,
+  dem::AssemblyFiles files() const;
+  /// of platens and membrane,
+  void write_fields(const coupling::CoupledSystem& system) const;
+  /// and of a line in each series, when all files are there. @param time [s]
+  void add_frame(double time) { frames_.add(time); }
 
 private:
   dem::History history_, bands_;
   Frames frames_;
 };
+
+/// Fields of the particles: "shear strain [-]" and so on, "shear strain of the increment [-]" and
+/// so on.
+std::vector<dem::Field> fields_of(const coupling::LocalStrains& strains);
 
 } // namespace mergel::apps

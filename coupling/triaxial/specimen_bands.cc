@@ -3,6 +3,7 @@
 #include "dem/io/state/named_rows.h"
 #include "dem/io/state/stage_numbers.h"
 #include "dem/io/state/state_rows.h"
+#include "dem/parallel/rows.h"
 
 #include <cmath>
 #include <utility>
@@ -147,9 +148,17 @@ void EarlierPositions::save(dem::State& state) const
 }
 
 LocalStrains local_strains(const std::vector<Vec3>& x_0, const std::vector<Vec3>& earlier,
-                           const std::vector<Vec3>& x, const std::vector<double>& R)
+                           const dem::Particles& p)
 {
-  return {dem::local_deformations(x_0, x, R), dem::local_deformations(earlier, x, R)};
+  return {dem::local_deformations(x_0, p), dem::local_deformations(earlier, p)};
+}
+
+LocalStrains gather_on_first_rank(const LocalStrains& mine, const dem::Assembly& assembly)
+{
+  const auto gathered = [&](const std::vector<dem::DeformationFit>& fits) {
+    return dem::gather_rows(assembly.comm, assembly.partition, fits, 0);
+  };
+  return {gathered(mine.total), gathered(mine.increment)};
 }
 
 BandRecord find_bands(const std::vector<Vec3>& x, const LocalStrains& strains, double d_50)

@@ -2,6 +2,7 @@
 /// test): which slab holds the most sheared and the most compacted particles.
 #pragma once
 
+#include "dem/assembly/assembly.h"
 #include "dem/assembly/local_strain.h"
 #include "dem/assembly/localisation.h"
 #include "dem/io/state/named_numbers.h"
@@ -24,7 +25,7 @@ struct BandRecord {
 void save(dem::State& state, const std::vector<BandRecord>& records);
 std::vector<BandRecord> load_band_records(const dem::State& state);
 
-/// Local strain of each particle, by index.
+/// Local strain of each particle: of a rank's own particles in their order, or of all.
 struct LocalStrains {
   std::vector<dem::DeformationFit> total;     ///< from the start of the test
   std::vector<dem::DeformationFit> increment; ///< from an earlier time of the stage
@@ -66,12 +67,15 @@ private:
   Positions older_, newer_;
 };
 
-/// @param x_0 positions at the start of the test; @param x present ones
+/// Of the owned particles; the positions of all are up to date.
+/// @param x_0 positions of all particles at the start of the test
 LocalStrains local_strains(const std::vector<dem::Vec3>& x_0,
-                           const std::vector<dem::Vec3>& earlier,
-                           const std::vector<dem::Vec3>& x, const std::vector<double>& R);
+                           const std::vector<dem::Vec3>& earlier, const dem::Particles& p);
+/// Those of all particles on the first rank, nothing on the others; collective.
+LocalStrains gather_on_first_rank(const LocalStrains& mine, const dem::Assembly& assembly);
 
-/// The four localisations. Time, stage and strains are the caller's.
+/// The four localisations, from the strains of all particles. Time, stage and axial strain are
+/// the caller's.
 /// @param x present positions, in which bands are looked for
 BandRecord find_bands(const std::vector<dem::Vec3>& x, const LocalStrains& strains,
                       double d_50);

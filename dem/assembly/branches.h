@@ -25,11 +25,11 @@ struct Branch {
   Vec3 n() const { return r.normalized(); }
 };
 
-/// Show the force F on the first particle [N] of each intact bond and loaded contact whose first
-/// particle this rank owns to `visit(q, branch, F)`: bonds in their order, each with the contact
-/// of its pair after it, then the other contacts.
-template <class Visit>
-void visit_branches(const Assembly& assembly, Visit&& visit)
+/// Show the force F on the first particle [N] of each intact bond and loaded contact of the pairs
+/// that are wanted(q) to `visit(q, branch, F)`: bonds in their order, each with the contact of its
+/// pair after it, then the other contacts.
+template <class Wanted, class Visit>
+void visit_branches(const Assembly& assembly, Wanted&& wanted, Visit&& visit)
 {
   const Particles& p = assembly.particles;
   const auto visit_contact = [&](const Pair& q, const Vec3& f_s) {
@@ -41,7 +41,7 @@ void visit_branches(const Assembly& assembly, Visit&& visit)
   };
   for (std::size_t k = 0; k < assembly.bonds.size(); ++k) {
     const Pair& q = assembly.bonds.pairs[k];
-    if (!p.owns(q.i)) continue;
+    if (!wanted(q)) continue;
     if (assembly.bonds.intact(k) > 0.0) {
       const Branch b(assembly, q);
       const BondReading bond =
@@ -51,8 +51,16 @@ void visit_branches(const Assembly& assembly, Visit&& visit)
     visit_contact(q, contact_shear_of(assembly.bonds, k));
   }
   for (std::size_t c = 0; c < assembly.contacts.pairs.size(); ++c)
-    if (p.owns(assembly.contacts.pairs[c].i))
+    if (wanted(assembly.contacts.pairs[c]))
       visit_contact(assembly.contacts.pairs[c], assembly.contacts.shear[c].f_s);
+}
+
+/// The pairs whose first particle this rank owns: each pair on one rank.
+template <class Visit>
+void visit_branches(const Assembly& assembly, Visit&& visit)
+{
+  visit_branches(
+      assembly, [&](const Pair& q) { return assembly.particles.owns(q.i); }, visit);
 }
 
 } // namespace mergel::dem

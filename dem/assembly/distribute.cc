@@ -1,7 +1,6 @@
 #include "dem/assembly/distribute.h"
 
 #include "dem/pairs/bond_record.h"
-#include "dem/parallel/packed_motion.h"
 
 #include <algorithm>
 #include <array>
@@ -264,93 +263,55 @@ void distribute(Assembly& assembly, MPI_Comm comm)
 
 namespace {
 
-/// Where the records of all ranks go.
-class Collection {
-public:
-  Collection(const Communicator& comm, bool on_every_rank)
-      : comm_(comm), on_every_rank_(on_every_rank)
-  {
-  }
-  bool is_here() const { return on_every_rank_ || comm_.rank() == 0; }
-
-  /// In the order of the ranks; empty where they do not go. Collective.
-  template <class Record>
-  std::vector<Record> of(const std::vector<Record>& mine) const
-  {
-    return on_every_rank_ ? comm_.gather(mine) : comm_.gather_on_first(mine);
-  }
-
-  /// Records of single particles, in the order of `key`.
-  template <class Record, class Key>
-  std::vector<Record> by(const std::vector<Record>& mine, Key&& key) const
-  {
-    std::vector<Record> all = of(mine);
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const Record& a, const Record& b) { return key(a) < key(b); });
-    return all;
-  }
-
-  /// Records of pairs, each once, ascending. The owner of the first particle supplies the
-  /// record. If `compare` is set, it is compared with that of the owner of the second.
-  template <class Record>
-  std::vector<Record> of_pairs(const Particles& p, const std::vector<Record>& records,
-                               bool compare) const
-  {
-    std::vector<Record> first, second;
-    for (const Record& r : records) {
-      if (p.owns(r.pair.i))
-        first.push_back(r);
-      else if (p.owns(r.pair.j))
-        second.push_back(r);
-    }
-    std::vector<Record> all = of(first);
-    std::sort(all.begin(), all.end(),
-              [](const Record& a, const Record& b) { return a.pair < b.pair; });
-    if (compare) compare_with(all, of(second), p);
-    return all;
-  }
-
-private:
-  const Communicator& comm_;
-  bool on_every_rank_;
-};
-
-/// Positions and velocities of all particles.
-void collect_motions(const Assembly& assembly, const Collection& collection, Particles* to)
+/// Records of single particles of all ranks, in the order of `key`.
+template <class Record, class Key>
+std::vector<Record> gather_by(const Communicator& comm, const std::vector<Record>& mine,
+                              Key&& key)
 {
-  std::vector<PackedMotion> mine;
-  const Particles& p = assembly.particles;
-  p.for_owned([&](Index i) { mine.push_back(pack(p.state[i])); });
-  const std::vector<PackedMotion> all = collection.of(mine);
-  if (!to) return;
-  std::size_t k = 0;
-  for (std::size_t r = 0; r < static_cast<std::size_t>(assembly.comm.n_ranks()); ++r)
-    for (const Index i : assembly.partition.owned_by(r)) unpack(all[k++], to->state[i]);
+  std::vector<Record> all = comm.gather(mine);
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const Record& a, const Record& b) { return key(a) < key(b); });
+  return all;
 }
 
-/// Histories at walls. @param all null where they do not go
-void collect_wall_histories(Assembly& assembly, const Collection& collection, Assembly* all)
+/// Records of pairs, each once, ascending. The owner of the first particle supplies the
+/// record. If `compare` is set, it is compared with that of the owner of the second.
+template <class Record>
+std::vector<Record> gather_pairs(const Assembly& assembly,
+                                 const std::vector<Record>& records, bool compare)
 {
-  const auto collect = [&](const auto& records) {
-    return collection.by(records, [](const auto& r) { return key_of(r); });
-  };
-  if (!all)
-    return for_each_wall(assembly, [&](auto& mine) {
-      std::apply([&](const auto&... lists) { (collect(lists), ...); }, histories(mine));
-    });
-  for_each_wall(assembly, *all, [&](auto& mine, auto& wall) {
+  const Particles& p = assembly.particles;
+  std::vector<Record> first, second;
+  for (const Record& r : records) {
+    if (p.owns(r.pair.i))
+      first.push_back(r);
+    else if (p.owns(r.pair.j))
+      second.push_back(r);
+  }
+  std::vector<Record> all = assembly.comm.gather(first);
+  std::sort(all.begin(), all.end(),
+            [](const Record& a, const Record& b) { return a.pair < b.pair; });
+  if (compare) compare_with(all, assembly.comm.gather(second), p);
+  return all;
+}
+
+void gather_wall_histories(Assembly& assembly, Assembly& all)
+{
+  for_each_wall(assembly, all, [&](auto& mine, auto& wall) {
     auto from = histories(mine);
     auto to = histories(wall);
     [&]<std::size_t... k>(std::index_sequence<k...>)
     {
-      ((std::get<k>(to) = collect(std::get<k>(from))), ...);
+      ((std::get<k>(to) = gather_by(assembly.comm, std::get<k>(from),
+                                    [](const auto& r) { return key_of(r); })),
+       ...);
     }
     (std::make_index_sequence<std::tuple_size_v<decltype(from)>>{});
   });
 }
 
-/// Sums that the ranks hold in parts. @param all null where they do not go
-void collect_sums(Assembly& assembly, Assembly* all)
+/// Sums that the ranks hold in parts.
+void gather_sums(Assembly& assembly, Assembly& all)
 {
   std::vector<ExactWide> parts;
   visit_sums(assembly, [&](const char*, SumKind kind, auto& sum) {
@@ -360,71 +321,48 @@ void collect_sums(Assembly& assembly, Assembly* all)
   ExactReduction sums;
   for (ExactWide& part : parts) sums.add(part);
   sums.run(assembly.comm);
-  if (!all) return;
   auto part = parts.begin();
-  visit_sums(*all, [&](const char*, SumKind kind, auto& sum) {
+  visit_sums(all, [&](const char*, SumKind kind, auto& sum) {
     if (kind == SumKind::by_rank) visit_raw(sum, [&](ExactWide& raw) { raw = *part++; });
   });
 }
 
-void collect_losses(const Assembly& assembly, const Collection& collection, Assembly* all)
+void gather_losses(const Assembly& assembly, Assembly& all)
 {
   const PairLosses& mine = assembly.losses;
-  PairLosses sums;
-  sums.broken = assembly.comm.global_sum(mine.broken);
-  sums.yielded = assembly.comm.global_sum(mine.yielded);
+  all.losses.broken = assembly.comm.global_sum(mine.broken);
+  all.losses.yielded = assembly.comm.global_sum(mine.yielded);
   for (std::size_t k = 0; k < n_break_modes; ++k)
-    sums.broken_by[k] = assembly.comm.global_sum(mine.broken_by[k]);
-  sums.breakages = collection.by(mine.breakages, [](const Breakage& b) { return b.pair; });
-  if (!all) return;
-  all->losses.broken = sums.broken;
-  all->losses.yielded = sums.yielded;
-  all->losses.broken_by = sums.broken_by;
-  all->losses.breakages = std::move(sums.breakages);
-  all->losses.virial = assembly.virial;
-}
-
-std::optional<Assembly> collect(Assembly& assembly, bool on_every_rank, bool compare)
-{
-  if (assembly.comm.is_alone()) return assembly;
-  const Collection collection(assembly.comm, on_every_rank);
-  std::optional<Assembly> whole;
-  if (collection.is_here()) {
-    whole = assembly;
-    whole->comm = Communicator();
-    whole->partition = Partition();
-    whole->ghosts = Ghosts();
-  }
-  Assembly* const all = whole ? &*whole : nullptr;
-  const Particles& p = assembly.particles;
-  collect_motions(assembly, collection, all ? &all->particles : nullptr);
-  for (const ParticleRecord& g : collection.of(particle_records(p, owned_particles(p))))
-    restore(g, all->particles);
-  Bonds bonds = bonds_of(collection.of_pairs(p, bond_records(assembly.bonds), compare));
-  Contacts contacts =
-      contacts_of(collection.of_pairs(p, contact_records(assembly.contacts), compare));
-  collect_wall_histories(assembly, collection, all);
-  collect_sums(assembly, all);
-  collect_losses(assembly, collection, all);
-  if (!all) return std::nullopt;
-  all->bonds = std::move(bonds);
-  all->contacts = std::move(contacts);
-  const std::size_t n = p.size();
-  all->particles.set_ownership(std::vector<char>(n, 1), std::vector<char>(n, 0));
-  all->list.invalidate();
-  return whole;
+    all.losses.broken_by[k] = assembly.comm.global_sum(mine.broken_by[k]);
+  all.losses.breakages =
+      gather_by(assembly.comm, mine.breakages, [](const Breakage& b) { return b.pair; });
+  all.losses.virial = assembly.virial;
 }
 
 } // namespace
 
 Assembly gather(Assembly& assembly, bool compare)
 {
-  return *collect(assembly, true, compare);
-}
-
-std::optional<Assembly> gather_on_first_rank(Assembly& assembly)
-{
-  return collect(assembly, false, false);
+  if (assembly.comm.is_alone()) return assembly;
+  Assembly all = assembly;
+  all.comm = Communicator();
+  all.partition = Partition();
+  all.ghosts = Ghosts();
+  const Particles& p = assembly.particles;
+  assembly.partition.gather_motion(all.particles, assembly.comm);
+  for (const ParticleRecord& g :
+       assembly.comm.gather(particle_records(p, owned_particles(p))))
+    restore(g, all.particles);
+  all.bonds = bonds_of(gather_pairs(assembly, bond_records(assembly.bonds), compare));
+  all.contacts =
+      contacts_of(gather_pairs(assembly, contact_records(assembly.contacts), compare));
+  gather_wall_histories(assembly, all);
+  gather_sums(assembly, all);
+  gather_losses(assembly, all);
+  const std::size_t n = p.size();
+  all.particles.set_ownership(std::vector<char>(n, 1), std::vector<char>(n, 0));
+  all.list.invalidate();
+  return all;
 }
 
 void rebalance(Assembly& assembly, double seconds, bool compare)

@@ -4,8 +4,6 @@
 
 #include "dem/assembly/step.h"
 
-#include <optional>
-
 namespace mergel::dem {
 
 /// Whether the histories that two ranks hold of one pair are compared at every migration.
@@ -27,10 +25,6 @@ void distribute(Assembly& assembly, MPI_Comm comm);
 /// @param compare whether the histories that two ranks hold of a pair across their border
 ///   are compared bit by bit; a difference throws std::logic_error
 Assembly gather(Assembly& assembly, bool compare = compares_histories);
-
-/// The same on the first rank, to write a frame; nothing on the others, which only send.
-/// Collective.
-std::optional<Assembly> gather_on_first_rank(Assembly& assembly);
 
 /// New partition with an even share of the computing time for each rank: particles migrate
 /// with all their histories. No bit of any result depends on it. Collective.

@@ -2,6 +2,7 @@
 
 #include "dem/assembly/neighbourhood.h"
 #include "dem/pairs/neighbours.h"
+#include "dem/parallel/rows.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -75,24 +76,63 @@ Vec3 centroid(const std::vector<Vec3>& x, const std::vector<Index>& indices)
 
 } // namespace
 
+std::vector<Pair> neighbours(const Particles& p, const PeriodicCell& cell,
+                             const std::vector<Vec3>& X)
+{
+  std::vector<double> extra;
+  extra.reserve(p.size());
+  for (const ParticleState& b : p.state) extra.push_back((neighbour_reach - 1.0) * b.R);
+  return find_pairs(p, cell, 0.0, extra, X);
+}
+
 std::vector<Pair> neighbours(const std::vector<Vec3>& x, const std::vector<double>& R,
                              const PeriodicCell& cell)
 {
-  std::vector<double> extra;
-  extra.reserve(R.size());
-  for (const double r : R) extra.push_back((neighbour_reach - 1.0) * r);
-  return find_pairs(at(x, R), cell, 0.0, extra);
+  return neighbours(at(x, R), cell);
 }
 
-bool holds_neighbourhoods(const PeriodicCell& cell, const std::vector<double>& R)
+bool holds_neighbourhoods(const PeriodicCell& cell, const Particles& p)
 {
-  if (R.empty()) return true;
+  double R = 0.0;
+  for (const ParticleState& b : p.state) R = std::max(R, b.R);
   // A hair more than what find_pairs() asks for, which sums the same length otherwise.
-  const double needed =
-      4.0 * (1.0 + 1e-9) * neighbour_reach * *std::max_element(R.begin(), R.end());
+  const double needed = 4.0 * (1.0 + 1e-9) * neighbour_reach * R;
   for (const double edge : cell.size)
     if (edge > 0.0 && edge < needed) return false;
   return true;
+}
+
+std::vector<DeformationFit> local_deformations(const std::vector<Vec3>& X,
+                                               const Particles& p,
+                                               const PeriodicCell& cell_0,
+                                               const PeriodicCell& cell)
+{
+  if (X.size() != p.size())
+    throw std::logic_error("local_deformations: positions differ in number");
+  const std::vector<Pair> pairs = neighbours(p, cell_0, X);
+  const auto D = [&](const Pair& q) -> Vec3 {
+    return X[q.j] + cell_0.offset(q.shift) - X[q.i];
+  };
+  const auto d = [&](const Pair& q) -> Vec3 {
+    return p.state[q.j].x + cell.offset(q.shift) - p.state[q.i].x;
+  };
+
+  // What j sees of i has both signs changed, which leaves products and squares as they are.
+  const std::vector<Index> rows = owned_rows(p);
+  const auto for_ends = [&](auto&& visit) {
+    for (const Pair& q : pairs)
+      for (const Index i : {q.i, q.j})
+        if (p.owns(i)) visit(rows[i], q);
+  };
+  std::vector<Moments> moments(p.n_owned());
+  for_ends([&](Index k, const Pair& q) { moments[k].add(D(q), d(q)); });
+  std::vector<DeformationFit> fits;
+  fits.reserve(moments.size());
+  for (const Moments& m : moments) fits.push_back(m.fit());
+  for_ends(
+      [&](Index k, const Pair& q) { fits[k].D2_min += remainder(fits[k], D(q), d(q)); });
+  for (std::size_t k = 0; k < fits.size(); ++k) divide_by_distances(fits[k], moments[k]);
+  return fits;
 }
 
 std::vector<DeformationFit> local_deformations(const std::vector<Vec3>& X,
@@ -103,25 +143,25 @@ std::vector<DeformationFit> local_deformations(const std::vector<Vec3>& X,
 {
   if (x.size() != X.size() || R.size() != X.size())
     throw std::logic_error("local_deformations: positions and radii differ in number");
-  const std::vector<Pair> pairs = neighbours(X, R, cell_0);
-  const auto D = [&](const Pair& q) -> Vec3 {
-    return X[q.j] + cell_0.offset(q.shift) - X[q.i];
-  };
-  const auto d = [&](const Pair& q) -> Vec3 {
-    return x[q.j] + cell.offset(q.shift) - x[q.i];
-  };
+  return local_deformations(X, at(x, R), cell_0, cell);
+}
 
-  // What j sees of i has both signs changed, which leaves products and squares as they are.
-  std::vector<Moments> moments(X.size());
-  for (const Pair& q : pairs)
-    for (const Index i : {q.i, q.j}) moments[i].add(D(q), d(q));
-  std::vector<DeformationFit> fits;
-  fits.reserve(X.size());
-  for (const Moments& m : moments) fits.push_back(m.fit());
-  for (const Pair& q : pairs)
-    for (const Index i : {q.i, q.j}) fits[i].D2_min += remainder(fits[i], D(q), d(q));
-  for (std::size_t i = 0; i < fits.size(); ++i) divide_by_distances(fits[i], moments[i]);
-  return fits;
+std::vector<Mat3> velocity_gradients(const Particles& p, const PeriodicCell& cell)
+{
+  const Mat3 of_cell = cell.rate.asDiagonal();
+  std::vector<Mat3> all(p.n_owned(), of_cell);
+  if (!holds_neighbourhoods(cell, p)) return all;
+  const std::vector<Index> rows = owned_rows(p);
+  std::vector<Moments> moments(p.n_owned());
+  for (const Pair& q : neighbours(p, cell)) {
+    const ParticleState &i = p.state[q.i], &j = p.state[q.j];
+    const Vec3 D = j.x + cell.offset(q.shift) - i.x, d = j.v - i.v;
+    for (const Index k : {q.i, q.j})
+      if (p.owns(k)) moments[rows[k]].add(D, d);
+  }
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (const DeformationFit fit = moments[k].fit(); fit.n > 0) all[k] += fit.F;
+  return all;
 }
 
 std::vector<Mat3> velocity_gradients(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
@@ -130,17 +170,9 @@ std::vector<Mat3> velocity_gradients(const std::vector<Vec3>& x, const std::vect
   if (v.size() != x.size() || R.size() != x.size())
     throw std::logic_error("velocity_gradients: positions, velocities and radii differ in "
                            "number");
-  const Mat3 of_cell = cell.rate.asDiagonal();
-  std::vector<Mat3> all(x.size(), of_cell);
-  if (!holds_neighbourhoods(cell, R)) return all;
-  std::vector<Moments> moments(x.size());
-  for (const Pair& q : neighbours(x, R, cell)) {
-    const Vec3 D = x[q.j] + cell.offset(q.shift) - x[q.i], d = v[q.j] - v[q.i];
-    for (const Index i : {q.i, q.j}) moments[i].add(D, d);
-  }
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (const DeformationFit fit = moments[i].fit(); fit.n > 0) all[i] += fit.F;
-  return all;
+  Particles p = at(x, R);
+  for (std::size_t i = 0; i < v.size(); ++i) p.state[i].v = v[i];
+  return velocity_gradients(p, cell);
 }
 
 DeformationFit deformation_of(const std::vector<Vec3>& X, const std::vector<Vec3>& x,

@@ -1,11 +1,12 @@
 /// Local strain: the deformation gradient that best fits how the neighbours of a particle,
 /// or any set of particles, moved between two configurations (dem/README.md, Element tests).
 ///
-/// Plain arithmetic on the positions of all particles, as a gathered assembly has them: not
-/// collective. Source: Falk and Langer (1998), Phys. Rev. E 57, 7192.
+/// Plain arithmetic on the positions of all particles: not collective. Source: Falk and Langer
+/// (1998), Phys. Rev. E 57, 7192.
 #pragma once
 
 #include "dem/particles/cell.h"
+#include "dem/particles/particles.h"
 
 #include <cstddef>
 #include <vector>
@@ -53,6 +54,13 @@ std::vector<DeformationFit> local_deformations(const std::vector<Vec3>& X,
                                                const PeriodicCell& cell_0 = {},
                                                const PeriodicCell& cell = {});
 
+/// The same of the owned particles, in their order; of the others only the positions count.
+/// @param X reference positions of all particles [m]; the present ones in p are up to date
+std::vector<DeformationFit> local_deformations(const std::vector<Vec3>& X,
+                                               const Particles& p,
+                                               const PeriodicCell& cell_0 = {},
+                                               const PeriodicCell& cell = {});
+
 /// Velocity gradient L of each particle at this moment [1/s]: it minimises
 /// sum |v_j - v_i - L (x_j - x_i)|^2 over the neighbours within neighbour_reach now. In a strained
 /// cell, whose velocities are relative to it, its rate is added. Where the neighbours do not
@@ -63,6 +71,10 @@ std::vector<DeformationFit> local_deformations(const std::vector<Vec3>& X,
 std::vector<Mat3> velocity_gradients(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                      const std::vector<double>& R,
                                      const PeriodicCell& cell = {});
+
+/// The same of the owned particles, in their order; positions and velocities of all particles
+/// are up to date.
+std::vector<Mat3> velocity_gradients(const Particles& p, const PeriodicCell& cell = {});
 
 /// Fit of the particles `indices` about their centroid. No periodic images: the positions
 /// are taken as they are.

@@ -13,8 +13,13 @@ namespace mergel::dem {
 std::vector<Pair> neighbours(const std::vector<Vec3>& x, const std::vector<double>& R,
                              const PeriodicCell& cell = {});
 
+/// Those pairs with an owned particle; the positions of all particles are up to date.
+/// @param X positions instead of the present ones [m]; empty: these
+std::vector<Pair> neighbours(const Particles& p, const PeriodicCell& cell = {},
+                             const std::vector<Vec3>& X = {});
+
 /// Whether neighbours() finds each pair once: in a periodic cell that is narrower than the
 /// neighbourhood of its largest particle a particle would have neighbours twice, or itself.
-bool holds_neighbourhoods(const PeriodicCell& cell, const std::vector<double>& R);
+bool holds_neighbourhoods(const PeriodicCell& cell, const Particles& p);
 
 } // namespace mergel::dem

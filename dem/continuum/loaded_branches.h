@@ -20,9 +20,10 @@ enum class BranchEnd {
 struct LoadedBranch {
   Index i = 0, j = 0; ///< j = i where it leads to no particle
   BranchEnd end = BranchEnd::particle;
-  Vec3 r = Vec3::Zero(); ///< from the centre of i [m]
-  Vec3 F = Vec3::Zero(); ///< on i [N]
-  Shift shift{};         ///< of j, where it is an image through a face of a periodic cell
+  Vec3 r = Vec3::Zero();  ///< from the centre of i [m]
+  Vec3 F = Vec3::Zero();  ///< on i [N]
+  Shift shift{};          ///< of j, where it is an image through a face of a periodic cell
+  bool is_bonded = false; ///< of a pair that was ever bonded
 
   double normal_force() const ///< compression positive [N]
   {
@@ -31,18 +32,21 @@ struct LoadedBranch {
   }
 };
 
-/// The forces between particles and triangulated walls in the last step, of all ranks on the
-/// first, in an order that does not depend on the ranks; nothing on the others. Collective.
-std::vector<WallContactForce> gather_wall_forces(const Assembly& assembly);
-
-/// The branches of a gathered assembly; bonds that are intact but bear no load are among them.
-/// Not collective.
-/// @param at_walls of gather_wall_forces()
+/// The branches of the particles that this rank owns, those to particles of other ranks among
+/// them, in an order that does not depend on the ranks: bonded pairs, other pairs, images,
+/// triangulated walls, rigid walls, each ascending. Bonds that are intact but bear no load are
+/// among them. The forces at walls are those of the last step. Not collective.
 /// @throws NumericalError for a centre inside a rigid wall
-std::vector<LoadedBranch> loaded_branches(const Assembly& assembly,
-                                          const std::vector<WallContactForce>& at_walls);
+std::vector<LoadedBranch> loaded_branches(const Assembly& assembly);
 
-/// Number of branches to particles and images of each particle [-]: its coordination number.
+/// The branches of all ranks that bear a load, each once, in the same order, on the rank `to`;
+/// nothing on the others. Collective.
+/// @param mine of loaded_branches()
+std::vector<LoadedBranch> gather_loads(const Assembly& assembly,
+                                       const std::vector<LoadedBranch>& mine, int to);
+
+/// Number of branches to particles and images of each owned particle [-]: its coordination
+/// number.
 std::vector<double> coordination(const Particles& p,
                                  const std::vector<LoadedBranch>& branches);
 

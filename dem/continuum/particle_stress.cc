@@ -2,61 +2,100 @@
 
 #include "dem/assembly/neighbourhood.h"
 #include "dem/continuum/section_sums.h"
+#include "dem/parallel/rows.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace mergel::dem {
 
-std::vector<Mat3> neighbourhood_stresses(const Particles& p,
-                                         const std::vector<LoadedBranch>& branches,
-                                         const std::vector<double>& porosity,
-                                         const PeriodicCell& cell)
+namespace {
+
+/// What a particle adds to the stress around it and its neighbours.
+struct Share {
+  Mat3 moment = Mat3::Zero(); ///< sum of F (x) (x_c - x_i) [J]
+  double volume = 0.0;        ///< [m^3]
+
+  Share& operator+=(const Share& b)
+  {
+    moment += b.moment;
+    volume += b.volume;
+    return *this;
+  }
+  Mat3 stress() const { return 0.5 / volume * (moment + moment.transpose()); }
+};
+
+/// Of the owned particles.
+std::vector<Share> shares_of(const Particles& p, const std::vector<LoadedBranch>& branches,
+                             const std::vector<double>& porosity,
+                             const std::vector<Index>& rows)
 {
-  std::vector<Mat3> moment(p.size(), Mat3::Zero()); // [J]
+  std::vector<Share> shares(p.n_owned());
+  p.for_owned([&](Index i) {
+    const Index k = rows[i];
+    shares[k].volume = sphere_mass(p.state[i].R, 1.0) / (1.0 - porosity[k]);
+  });
   for (const LoadedBranch& b : branches) {
+    const Mat3 whole = b.F * b.r.transpose();
     if (b.end != BranchEnd::particle) {
-      moment[b.i] += b.F * b.r.transpose();
+      shares[rows[b.i]].moment += whole;
       continue;
     }
     const double length = b.r.norm(), R_i = p.state[b.i].R, R_j = p.state[b.j].R;
     const double arm_i = R_i + 0.5 * (length - R_i - R_j);
-    const Mat3 whole = b.F * b.r.transpose();
-    moment[b.i] += arm_i / length * whole; // length > 0: centres do not meet
-    moment[b.j] += (length - arm_i) / length * whole;
+    // length > 0: centres do not meet
+    if (p.owns(b.i)) shares[rows[b.i]].moment += arm_i / length * whole;
+    if (p.owns(b.j)) shares[rows[b.j]].moment += (length - arm_i) / length * whole;
   }
-  std::vector<Vec3> x;
-  std::vector<double> R, volume;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    x.push_back(p.state[i].x);
-    R.push_back(p.state[i].R);
-    volume.push_back(sphere_mass(R.back(), 1.0) / (1.0 - porosity[i]));
+  return shares;
+}
+
+} // namespace
+
+std::vector<Mat3> neighbourhood_stresses(const Assembly& assembly,
+                                         const std::vector<LoadedBranch>& branches,
+                                         const std::vector<double>& porosity)
+{
+  const Particles& p = assembly.particles;
+  const PeriodicCell& cell = assembly.cell;
+  const bool is_narrow = !holds_neighbourhoods(cell, p);
+  const std::vector<Pair> pairs = is_narrow ? std::vector<Pair>{} : neighbours(p, cell);
+  std::vector<char> is_wanted(p.size(), is_narrow);
+  for (const Pair& q : pairs) is_wanted[q.i] = is_wanted[q.j] = 1;
+  std::vector<Index> remote;
+  for (Index i = 0; i < p.size(); ++i)
+    if (is_wanted[i] && !p.owns(i)) remote.push_back(i);
+
+  // Rows of the owned particles, then of the others.
+  std::vector<Index> rows = owned_rows(p);
+  std::vector<Share> shares = shares_of(p, branches, porosity, rows);
+  const std::vector<Share> fetched =
+      fetch_rows(assembly.comm, assembly.partition, rows, shares, remote);
+  for (std::size_t k = 0; k < remote.size(); ++k)
+    rows[remote[k]] = static_cast<Index>(shares.size() + k);
+  shares.insert(shares.end(), fetched.begin(), fetched.end());
+
+  std::vector<Mat3> stress;
+  if (is_narrow) {
+    Share all;
+    for (Index i = 0; i < p.size(); ++i) all += shares[rows[i]];
+    stress.assign(p.n_owned(), all.stress()); // particles: volume > 0
+    return stress;
   }
-  const auto symmetric = [](const Mat3& a, double over) -> Mat3 {
-    return 0.5 / over * (a + a.transpose());
-  };
-  if (!holds_neighbourhoods(cell, R)) {
-    const Mat3 all = std::accumulate(moment.begin(), moment.end(), Mat3(Mat3::Zero()));
-    const double whole = std::accumulate(volume.begin(), volume.end(), 0.0);
-    return std::vector<Mat3>(p.size(), symmetric(all, whole)); // particles: whole > 0
+  std::vector<Share> sums(shares.begin(),
+                          shares.begin() + static_cast<std::ptrdiff_t>(p.n_owned()));
+  for (const Pair& q : pairs) {
+    if (p.owns(q.i)) sums[rows[q.i]] += shares[rows[q.j]];
+    if (p.owns(q.j)) sums[rows[q.j]] += shares[rows[q.i]];
   }
-  std::vector<Mat3> sum = moment;
-  std::vector<double> V = volume;
-  for (const Pair& q : neighbours(x, R, cell)) {
-    sum[q.i] += moment[q.j];
-    sum[q.j] += moment[q.i];
-    V[q.i] += volume[q.j];
-    V[q.j] += volume[q.i];
-  }
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = symmetric(sum[i], V[i]);
-  return sum;
+  for (const Share& sum : sums) stress.push_back(sum.stress());
+  return stress;
 }
 
 std::vector<double> even_porosity(const Particles& p, double volume)
 {
   double solid = 0.0; // [m^3]
   for (const ParticleState& b : p.state) solid += sphere_mass(b.R, 1.0);
-  return std::vector<double>(p.size(), 1.0 - solid / volume);
+  return std::vector<double>(p.n_owned(), 1.0 - solid / volume);
 }
 
 std::vector<double> strained_porosity(double n_0, const std::vector<DeformationFit>& fits)

@@ -6,19 +6,20 @@
 
 namespace mergel::dem {
 
-/// Symmetric part of Love's sum F (x) (x_c - x_i) over the branches of a particle and of its
-/// neighbours, divided by their volumes v/(1 - n), v the sphere volume [Pa], tension positive.
-/// Neighbours are those within neighbour_reach (local_strain.h) now: the averaging length is some
-/// three diameters of the particle itself. Branches to walls and images are included. In a periodic
+/// The stress around each owned particle, in their order: symmetric part of Love's sum
+/// F (x) (x_c - x_i) over the branches of a particle and of its neighbours, divided by their
+/// volumes v/(1 - n), v the sphere volume [Pa], tension positive. Neighbours are those within
+/// neighbour_reach (local_strain.h) now: the averaging length is some three diameters of the
+/// particle itself. Branches to walls and images are included. In a periodic
 /// cell too narrow for neighbourhoods (assembly/neighbourhood.h) each particle has the stress of
-/// the cell. Not collective.
-/// @param porosity n of the rock around each particle [-], below 1
-std::vector<Mat3> neighbourhood_stresses(const Particles& p,
+/// the cell. The positions of all particles are up to date. Collective.
+/// @param branches of loaded_branches()
+/// @param porosity n of the rock around each owned particle [-], below 1
+std::vector<Mat3> neighbourhood_stresses(const Assembly& assembly,
                                          const std::vector<LoadedBranch>& branches,
-                                         const std::vector<double>& porosity,
-                                         const PeriodicCell& cell = {});
+                                         const std::vector<double>& porosity);
 
-/// The porosity of a specimen as that around each of its n particles [-].
+/// The porosity of a specimen as that around each owned particle [-].
 /// @param volume of the specimen [m^3], above 0
 std::vector<double> even_porosity(const Particles& p, double volume);
 

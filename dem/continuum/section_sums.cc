@@ -81,6 +81,19 @@ void add_cylinders(std::vector<double>& cuts, const Vec3& x, const Vec3& r, doub
   }
 }
 
+template <class Visit>
+void for_each_sum(ExactSectionSum& s, Visit&& visit)
+{
+  for (EnergySum& component : s.virial) visit(component);
+  visit(s.solid);
+  visit(s.displacement);
+  visit(s.increment);
+  visit(s.damage);
+  visit(s.coordination);
+  visit(s.volumetric);
+  visit(s.shear);
+}
+
 /// As seen from the other side of the axis: right is left.
 SectionSum mirrored(SectionSum sum)
 {
@@ -96,7 +109,7 @@ SectionSum mirrored(SectionSum sum)
 SectionSums::SectionSums(const SectionGrid& grid, const Particles& p,
                          const std::vector<LoadedBranch>& branches,
                          const ParticleValues& values, const RigidWall* pile)
-    : grid_(grid), cells_(grid.size())
+    : grid_(grid), exact_(grid.size()), cells_(grid.size())
 {
   const Revolution* shape = pile ? std::get_if<Revolution>(&pile->shape) : nullptr;
   const Vec3 x = pile ? pile->x : Vec3::Zero();
@@ -105,8 +118,43 @@ SectionSums::SectionSums(const SectionGrid& grid, const Particles& p,
   for (int row = 0; row < grid.n_z; ++row)
     for (int column = 0; column < grid.n_columns(); ++column)
       cells_[grid.index(column, row)].volume = grid.volume(column, row, shape, x);
-  for (const LoadedBranch& b : branches) add(b, p.state[b.i].x);
-  for (Index i = 0; i < p.size(); ++i) add(p.state[i], i, values);
+  for (const LoadedBranch& b : branches)
+    if (p.owns(b.i)) add(b, p.state[b.i].x);
+  std::size_t k = 0;
+  p.for_owned([&](Index i) { add(p.state[i], k++, values); });
+  round_sums();
+}
+
+void SectionSums::add_ranks(const Communicator& comm)
+{
+  ExactReduction sums;
+  std::vector<double> largest_R;
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    for_each_sum(exact_[k], [&](auto& sum) { sums.add(sum); });
+    largest_R.push_back(cells_[k].largest_R);
+  }
+  sums.run(comm);
+  comm.global_max(largest_R);
+  for (std::size_t k = 0; k < cells_.size(); ++k) cells_[k].largest_R = largest_R[k];
+  round_sums();
+  exact_ = {};
+}
+
+void SectionSums::round_sums()
+{
+  const double h = grid_.h, h3 = h * h * h;
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    const ExactSectionSum& from = exact_[k];
+    SectionSum& to = cells_[k];
+    for (int a = 0; a < 9; ++a) to.virial(a) = from.virial[uz(a)].value();
+    to.solid = h3 * from.solid.value();
+    to.displacement = h3 * h * from.displacement.value();
+    to.increment = h3 * h * from.increment.value();
+    to.damage = h3 * from.damage.value();
+    to.coordination = h3 * from.coordination.value();
+    to.volumetric = h3 * from.volumetric.value();
+    to.shear = h3 * from.shear.value();
+  }
 }
 
 void SectionSums::add(const LoadedBranch& b, const Vec3& x)
@@ -125,12 +173,13 @@ void SectionSums::add(const LoadedBranch& b, const Vec3& x)
     const std::ptrdiff_t at = grid_.cell_at(middle);
     if (at < 0) continue;
     const Mat3 axes = section_axes(middle, middle.x() < 0.0);
-    cells_[static_cast<std::size_t>(at)].virial +=
-        share * (axes * b.F) * (axes * b.r).transpose();
+    const Mat3 virial = share * (axes * b.F) * (axes * b.r).transpose();
+    auto& sums = exact_[static_cast<std::size_t>(at)].virial;
+    for (int a = 0; a < 9; ++a) sums[uz(a)].add(virial(a));
   }
 }
 
-void SectionSums::add(const ParticleState& b, Index i, const ParticleValues& values)
+void SectionSums::add(const ParticleState& b, std::size_t k, const ParticleValues& values)
 {
   static const std::vector<Vec3> points = unit_points();
   const double share = sphere_mass(b.R, 1.0) / static_cast<double>(points.size());
@@ -145,20 +194,21 @@ void SectionSums::add(const ParticleState& b, Index i, const ParticleValues& val
     else
       known->second += share;
   }
-  for (const auto& cell_and_volume : found) {
-    const auto k = static_cast<std::size_t>(cell_and_volume.first);
-    const double v = cell_and_volume.second;
-    const int column = static_cast<int>(k % static_cast<std::size_t>(grid_.n_columns()));
+  const double h = grid_.h;
+  for (const auto& [at, volume] : found) {
+    const auto cell = static_cast<std::size_t>(at);
+    const double v = volume / (h * h * h);
+    const int column = static_cast<int>(cell % static_cast<std::size_t>(grid_.n_columns()));
     const Mat3 axes = section_axes(b.x, grid_.is_left(column));
-    SectionSum& cell = cells_[k];
-    cell.solid += v;
-    cell.displacement += v * (axes * values.displacement[i]);
-    cell.increment += v * (axes * values.increment[i]);
-    cell.damage += v * values.damage[i];
-    cell.coordination += v * values.coordination[i];
-    cell.volumetric += v * values.volumetric[i];
-    cell.shear += v * values.shear[i];
-    cell.largest_R = std::max(cell.largest_R, b.R);
+    ExactSectionSum& sum = exact_[cell];
+    sum.solid.add(v);
+    sum.displacement.add(v / h * (axes * values.displacement[k]));
+    sum.increment.add(v / h * (axes * values.increment[k]));
+    sum.damage.add(v * values.damage[k]);
+    sum.coordination.add(v * values.coordination[k]);
+    sum.volumetric.add(v * values.volumetric[k]);
+    sum.shear.add(v * values.shear[k]);
+    cells_[cell].largest_R = std::max(cells_[cell].largest_R, b.R);
   }
 }
 

@@ -1,19 +1,20 @@
 /// Sums over the cells of a section grid, and averages of them: the continuum fields around a
 /// pile (dem/README.md, Continuum fields).
 ///
-/// Plain arithmetic on a gathered assembly, in the order of its particles and branches: not
-/// collective, and the same bits on any number of ranks.
+/// Each rank adds its own particles and branches. The sums are exact (dem/math/exact_sum.h): the
+/// same bits in any order, so on any number of ranks.
 #pragma once
 
 #include "dem/continuum/loaded_branches.h"
 #include "dem/continuum/section_grid.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
 namespace mergel::dem {
 
-/// What the particles carry into the cells, by particle.
+/// What the owned particles carry into the cells, in their order.
 struct ParticleValues {
   std::vector<Vec3> displacement, increment; ///< total, and since the last frame [m]
   std::vector<double> damage;                ///< mean of the bonds [-]
@@ -59,15 +60,31 @@ struct SectionAverage {
 /// Share of a window that spheres must fill to count as rock [-]: less is air or the pile.
 inline constexpr double smallest_solid = 0.2;
 
+/// The sums over one cell as they are collected. Solid volumes are in units of h^3, and so are the
+/// weights of the others. Strains of debris may be large: their terms are below 1e18, of a quantum
+/// of 9e-13.
+struct ExactSectionSum {
+  using Share = ExactSum<50>; ///< quantum 9e-16, terms below 1e15
+  using Strain = ExactSum<40>;
+
+  std::array<EnergySum, 9> virial; ///< by columns [J]
+  Share solid, damage, coordination;
+  ExactVector<Share> displacement, increment; ///< in units of h
+  Strain volumetric, shear;
+};
+
 class SectionSums {
 public:
-  /// Each branch adds F (x) r by its length in the cells that it crosses. Each sphere adds what of
-  /// it lies in a cell: 280 points of a cubic lattice stand for its volume, those behind y = 0 are
-  /// left out.
+  /// The share of this rank, of its own particles. Each branch adds F (x) r by its length in the
+  /// cells that it crosses. Each sphere adds what of it lies in a cell: 280 points of a cubic
+  /// lattice stand for its volume, those behind y = 0 are left out. Not collective.
   /// @param pile where it stands; null: none
   SectionSums(const SectionGrid& grid, const Particles& p,
               const std::vector<LoadedBranch>& branches, const ParticleValues& values,
               const RigidWall* pile);
+
+  /// Add the shares of the other ranks: the whole sums on every rank. Once; collective.
+  void add_ranks(const Communicator& comm);
 
   const SectionGrid& grid() const { return grid_; }
   const SectionSum& cell(int column, int row) const
@@ -97,11 +114,14 @@ public:
 
 private:
   void add(const LoadedBranch& b, const Vec3& x);
-  void add(const ParticleState& b, Index i, const ParticleValues& values);
+  /// @param k row of the particle
+  void add(const ParticleState& b, std::size_t k, const ParticleValues& values);
+  void round_sums();
 
   SectionGrid grid_;
   std::optional<Revolution> pile_;
-  double z_pile_ = 0.0; ///< of its lowest point [m]
+  double z_pile_ = 0.0;                ///< of its lowest point [m]
+  std::vector<ExactSectionSum> exact_; ///< by cell; empty once the ranks are added
   std::vector<SectionSum> cells_;
 };
 

@@ -1,5 +1,8 @@
 #include "dem/io/assembly_fields.h"
 
+#include "dem/parallel/rows.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace mergel::dem {
@@ -25,44 +28,50 @@ void set_vector(Field& f, std::size_t k, const Vec3& a)
 
 std::vector<double> particle_damage(const Assembly& assembly)
 {
-  std::vector<double> sum(assembly.particles.size(), 0.0),
-      count(assembly.particles.size(), 0.0);
+  const Particles& p = assembly.particles;
+  const std::vector<Index> rows = owned_rows(p);
+  std::vector<double> sum(p.n_owned(), 0.0), count(p.n_owned(), 0.0);
   for (std::size_t b = 0; b < assembly.bonds.size(); ++b)
-    for (const Index p : {assembly.bonds.pairs[b].i, assembly.bonds.pairs[b].j}) {
-      sum[p] += 1.0 - assembly.bonds.intact(b);
-      count[p] += 1.0;
+    for (const Index i : {assembly.bonds.pairs[b].i, assembly.bonds.pairs[b].j}) {
+      if (!p.owns(i)) continue;
+      sum[rows[i]] += 1.0 - assembly.bonds.intact(b);
+      count[rows[i]] += 1.0;
     }
-  for (std::size_t p = 0; p < sum.size(); ++p)
-    if (count[p] > 0.0) sum[p] /= count[p];
+  for (std::size_t k = 0; k < sum.size(); ++k)
+    if (count[k] > 0.0) sum[k] /= count[k];
   return sum;
 }
 
-void write_particles(const std::filesystem::path& file, const Assembly& assembly,
-                     const std::vector<Vec3>& x_0, const std::vector<Field>& more)
+std::vector<Field> particle_fields(const Assembly& assembly, const std::vector<Vec3>& x_0)
 {
   const Particles& p = assembly.particles;
   const std::size_t n = p.n_owned();
-  std::vector<Vec3> x;
   Field radius = scalar("radius", std::vector<double>(n)),
-        S = scalar("S", std::vector<double>(n)), id = scalar("id", std::vector<double>(n));
+        S = scalar("S", std::vector<double>(n)), id = scalar("id", std::vector<double>(n)),
+        strength = scalar("strength", {});
   Field velocity = vector("velocity", n), force = vector("force", n),
         displacement = vector("displacement", n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const ParticleState& b = p.state[k];
-    x.push_back(b.x);
+  std::size_t k = 0;
+  p.for_owned([&](Index i) {
+    const ParticleState& b = p.state[i];
     radius.values[k] = b.R;
     S.values[k] = b.S;
-    id.values[k] = static_cast<double>(p.id[k]);
+    id.values[k] = static_cast<double>(p.id[i]);
     set_vector(velocity, k, b.v);
-    set_vector(force, k, p.load[k].f);
-    set_vector(displacement, k, b.x - x_0[k]);
-  }
-  std::vector<Field> fields{
-      radius, velocity,    scalar("damage", particle_damage(assembly)), force, S,
-      id,     displacement};
-  if (!p.strength.empty()) fields.push_back(scalar("strength", p.strength));
-  fields.insert(fields.end(), more.begin(), more.end());
-  write_points(file, x, fields);
+    set_vector(force, k, p.load[i].f);
+    set_vector(displacement, k, b.x - x_0[i]);
+    if (!p.strength.empty()) strength.values.push_back(p.strength[i]);
+    ++k;
+  });
+  std::vector<Field> fields{std::move(radius),
+                            std::move(velocity),
+                            scalar("damage", particle_damage(assembly)),
+                            std::move(force),
+                            std::move(S),
+                            std::move(id),
+                            std::move(displacement)};
+  if (!p.strength.empty()) fields.push_back(std::move(strength));
+  return fields;
 }
 
 std::vector<Field> strain_fields(const std::vector<DeformationFit>& fits)
@@ -77,24 +86,39 @@ std::vector<Field> strain_fields(const std::vector<DeformationFit>& fits)
   return {volumetric, shear, D2_min};
 }
 
-void write_bonds(const std::filesystem::path& file, const Assembly& assembly)
+std::vector<BondLine> gather_bonds(const Assembly& assembly, int to)
 {
-  const std::size_t n = assembly.bonds.size();
+  const Particles& p = assembly.particles;
+  std::vector<BondLine> mine;
+  for (std::size_t b = 0; b < assembly.bonds.size(); ++b)
+    if (p.owns(assembly.bonds.pairs[b].i))
+      mine.push_back(
+          {assembly.bonds.pairs[b],
+           read_bond(assembly.bonds, b, p, assembly.cell, assembly.material.bond)});
+  std::vector<BondLine> all = assembly.comm.gather_on(to, mine);
+  std::sort(all.begin(), all.end(),
+            [](const BondLine& a, const BondLine& b) { return a.pair < b.pair; });
+  return all;
+}
+
+void write_bonds(const std::filesystem::path& file, const Particles& p,
+                 const PeriodicCell& cell, const std::vector<BondLine>& bonds)
+{
+  const std::size_t n = bonds.size();
   std::vector<Vec3> x;
-  for (const ParticleState& b : assembly.particles.state) x.push_back(b.x);
+  for (const ParticleState& b : p.state) x.push_back(b.x);
   std::vector<std::array<Index, 2>> lines;
   Field N = scalar("N", std::vector<double>(n)), D = scalar("D", std::vector<double>(n));
   Field V = vector("V", n), M = vector("M", n), T = scalar("T", std::vector<double>(n));
   for (std::size_t b = 0; b < n; ++b) {
-    const Pair& q = assembly.bonds.pairs[b];
+    const Pair& q = bonds[b].pair;
     Index end = q.j;
     if (q.shift != Shift{}) { // the line ends at the image instead of crossing the cell
       end = static_cast<Index>(x.size());
-      x.push_back(assembly.particles.state[q.j].x + assembly.cell.offset(q.shift));
+      x.push_back(p.state[q.j].x + cell.offset(q.shift));
     }
     lines.push_back({q.i, end});
-    const BondReading r = read_bond(assembly.bonds, b, assembly.particles, assembly.cell,
-                                    assembly.material.bond);
+    const BondReading& r = bonds[b].bond;
     N.values[b] = r.N;
     D.values[b] = r.D;
     set_vector(V, b, r.V);

@@ -53,13 +53,14 @@ struct Wrapped {
   std::vector<Shift> shift; ///< x = state.x - offset(shift)
 };
 
-Wrapped wrap(const Particles& p, const PeriodicCell& cell)
+/// @param at positions instead of those of p; empty: these
+Wrapped wrap(const Particles& p, const PeriodicCell& cell, const std::vector<Vec3>& at)
 {
   Wrapped w;
   w.x.reserve(p.size());
   w.shift.assign(p.size(), Shift{});
   for (std::size_t i = 0; i < p.size(); ++i) {
-    Vec3 x = p.state[i].x;
+    Vec3 x = at.empty() ? p.state[i].x : at[i];
     for (int a = 0; a < 3; ++a)
       if (cell.size[a] > 0.0) {
         const double k = std::floor(x[a] / cell.size[a]);
@@ -203,7 +204,7 @@ std::vector<char> near_owned(const Particles& p, const Wrapped& w, const Periodi
 } // namespace
 
 std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, double range,
-                             const std::vector<double>& extra)
+                             const std::vector<double>& extra, const std::vector<Vec3>& x)
 {
   if (p.size() == 0) return {};
   const Reach reach_of{p, range, extra};
@@ -215,7 +216,7 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
                 " m, at least " + std::to_string(4.0 * largest) +
                 " m for its largest particles; enlarge the cell or lower the upscaling");
 
-  const Wrapped w = wrap(p, cell);
+  const Wrapped w = wrap(p, cell, x);
   const std::vector<char> is_near = near_owned(p, w, cell, 2.0 * largest);
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   std::vector<Level> levels;
@@ -245,12 +246,12 @@ std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, doubl
       if (l.all.empty()) continue;
       const bool same = k == level_of[i];
       visit_around(l, w.x[i], cell, [&](Index first, Index end, const Shift& s) {
-        const Vec3 x = w.x[i] - cell.offset(s);
+        const Vec3 centre = w.x[i] - cell.offset(s);
         for (Index m = first; m < end; ++m) {
           const Level::Member& other = l.member[m];
           const double reach = reach_i + other.reach;
           // The margin is for the round-off of motions that are added up.
-          if ((other.x - x).squaredNorm() >= reach * reach * (1.0 + 1e-12)) continue;
+          if ((other.x - centre).squaredNorm() >= reach * reach * (1.0 + 1e-12)) continue;
           const Index j = other.i;
           if ((same && j <= i) || !(is_mine || p.owns(j))) continue;
           Pair q{i, j, {}};

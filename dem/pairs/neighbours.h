@@ -15,10 +15,12 @@ namespace mergel::dem {
 ///
 /// @param range gap at S = 1 [m], >= 0
 /// @param extra by particle [m], >= 0; empty: none
+/// @param x positions instead of the present ones [m]; empty: these
 /// @throws InputError when a periodic edge is shorter than four times the largest reach
 ///   R + range S/2, so that a particle could act on its own image
 std::vector<Pair> find_pairs(const Particles& p, const PeriodicCell& cell, double range,
-                             const std::vector<double>& extra = {});
+                             const std::vector<double>& extra = {},
+                             const std::vector<Vec3>& x = {});
 
 /// Skin of a list at S = 1 over the diameter of the smallest particle, by default [-].
 inline constexpr double default_skin = 0.3;

@@ -26,6 +26,14 @@ double Communicator::global_max(double value) const
   return -global_min(-value);
 }
 
+void Communicator::global_max(std::vector<double>& values) const
+{
+  if (is_alone()) return;
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE,
+                MPI_MAX, comm_);
+  ++n_reductions_;
+}
+
 std::size_t Communicator::global_sum(std::size_t count) const
 {
   if (is_alone()) return count;

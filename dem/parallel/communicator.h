@@ -23,9 +23,10 @@ public:
   /// MPI_COMM_NULL for one rank without MPI.
   MPI_Comm mpi() const { return comm_; }
 
-  double global_min(double value) const;           ///< collective
-  double global_max(double value) const;           ///< collective
-  std::size_t global_sum(std::size_t count) const; ///< collective
+  double global_min(double value) const;              ///< collective
+  double global_max(double value) const;              ///< collective
+  void global_max(std::vector<double>& values) const; ///< of each; collective
+  std::size_t global_sum(std::size_t count) const;    ///< collective
   /// Number of reductions since the start: sums, minima, maxima and faults.
   std::size_t n_reductions() const { return n_reductions_; }
 
@@ -46,13 +47,19 @@ public:
     return all;
   }
 
-  /// The same on the first rank, nothing on the others; collective.
+  /// The same on the rank `to`, nothing on the others; collective.
   template <class Record>
-  std::vector<Record> gather_on_first(const std::vector<Record>& mine) const
+  std::vector<Record> gather_on(int to, const std::vector<Record>& mine) const
   {
-    std::vector<std::vector<Record>> to(static_cast<std::size_t>(n_ranks_));
-    to.front() = mine;
-    return exchange(to);
+    if (is_alone()) return mine;
+    std::vector<int> counts(static_cast<std::size_t>(n_ranks_), 0);
+    counts[static_cast<std::size_t>(to)] = static_cast<int>(mine.size());
+    std::vector<Record> all;
+    exchange_bytes(mine.data(), counts, sizeof(Record), [&all](std::size_t n) {
+      all.resize(n);
+      return static_cast<void*>(all.data());
+    });
+    return all;
   }
 
   /// What all ranks have for this one, in the order of the ranks; collective.

@@ -21,7 +21,10 @@
 #include "dem/assembly/averages.h"
 #include "dem/assembly/distribute.h"
 #include "dem/assembly/energy_balance.h"
+#include "dem/continuum/particle_stress.h"
+#include "dem/continuum/section_sums.h"
 #include "dem/element/servo.h"
+#include "dem/io/assembly_frame.h"
 #include "dem/io/state/assembly_state.h"
 #include "dem/io/state/checkpoint.h"
 #include "dem/io/state/step_numbers.h"
@@ -33,6 +36,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -190,6 +195,73 @@ void report(apps::WorkingAssembly& w, int step)
       c.traction.z(), all.cell.size.x(), all.cell.size.z());
 }
 
+std::uint64_t fnv_1a(const std::string& bytes)
+{
+  std::uint64_t sum = 1469598103934665603u;
+  for (const char c : bytes) sum = (sum ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return sum;
+}
+
+/// The sums over all cells of a section through the block, as text.
+std::string section_of(const Assembly& assembly, const std::vector<Vec3>& x_0,
+                       const std::vector<LoadedBranch>& branches,
+                       const std::vector<DeformationFit>& fits)
+{
+  const Particles& p = assembly.particles;
+  ParticleValues values;
+  p.for_owned([&](Index i) {
+    values.displacement.push_back(p.state[i].x - x_0[i]);
+    values.increment.push_back(p.state[i].v);
+  });
+  for (const DeformationFit& fit : fits) {
+    values.volumetric.push_back(volumetric_strain(fit.F));
+    values.shear.push_back(shear_strain(fit.F));
+  }
+  values.damage = particle_damage(assembly);
+  values.coordination = coordination(p, branches);
+  const double edge = 20.0 * 2.0 * p.state.front().R;
+  SectionSums sums(make_section_grid(edge, edge, edge, 0.05 * edge), p, branches, values,
+                   nullptr);
+  sums.add_ranks(assembly.comm);
+  const SectionSum all = sums.between(0.0, edge, -edge, edge);
+  if (!(all.solid > 0.0 && all.virial.norm() > 0.0))
+    throw std::runtime_error("nothing is in the section");
+  std::string text;
+  for (int row = 0; row < sums.grid().n_z; ++row)
+    for (int column = 0; column < sums.grid().n_columns(); ++column) {
+      const SectionSum& s = sums.cell(column, row);
+      char line[512];
+      std::snprintf(line, sizeof line, "%a %a %a %a %a %a %a %a %a %a\n", s.solid,
+                    s.virial(0, 0), s.virial(2, 1), s.displacement.x(), s.increment.z(),
+                    s.damage, s.coordination, s.volumetric, s.shear, s.largest_R);
+      text += line;
+    }
+  return text;
+}
+
+/// Write a frame, each rank its files, and show their checksums and that of a section.
+void report_frame(Assembly& assembly, const std::vector<Vec3>& x_0,
+                  const PeriodicCell& cell_0)
+{
+  assembly.partition.gather_motion(assembly.particles, assembly.comm);
+  const auto fits = local_deformations(x_0, assembly.particles, cell_0, assembly.cell);
+  const auto branches = loaded_branches(assembly);
+  const std::string section = section_of(assembly, x_0, branches, fits);
+  const FrameFiles frame(
+      {assembly, x_0, branches, strained_porosity(0.4, fits), strain_fields(fits)});
+  const AssemblyFiles files{"particles.vtp", "bonds.vtp", "contacts.vtp"};
+  frame.write(files);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (assembly.comm.rank() != 0) return;
+  std::printf("section %016" PRIx64, fnv_1a(section));
+  for (const auto& file : {files.particles, files.bonds, files.contacts}) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    std::printf(" %s %016" PRIx64, file.c_str(), fnv_1a(bytes));
+  }
+  std::printf("\n");
+}
+
 struct Options {
   bool rebuilds = false, rebalances = false;
   std::string restart, checkpoint; ///< files
@@ -274,6 +346,9 @@ void run(const std::string& name, const Options& o)
   const bool rebuilds = o.rebuilds, rebalances = o.rebalances;
   apps::WorkingAssembly w = make(name);
   weaken(w.assembly, 1e8);
+  std::vector<Vec3> x_0;
+  for (const ParticleState& b : w.assembly.particles.state) x_0.push_back(b.x);
+  const PeriodicCell cell_0 = w.assembly.cell;
   // The largest frequency is computed again in the middle of the run, after the first stop.
   const auto n_before = w.n_steps = steps_between_evaluations - n_steps / 2;
   Servo servo;
@@ -296,6 +371,7 @@ void run(const std::string& name, const Options& o)
     has_flown |= !w.assembly.list.extra().empty();
     if (step % 40 == 0) report(w, step);
   }
+  if (o.checkpoint.empty()) report_frame(w.assembly, x_0, cell_0);
   std::fflush(stdout);
   if (!o.checkpoint.empty()) {
     save(w, servo, o.checkpoint);

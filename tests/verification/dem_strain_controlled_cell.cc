@@ -251,8 +251,8 @@ TEST_CASE("A rebuild of the lists changes no bit in a strained cell", "[verifica
 /// As the frames of an element test have them.
 std::vector<Mat3> stresses_around_particles(const Assembly& a)
 {
-  return neighbourhood_stresses(a.particles, loaded_branches(a, {}),
-                                even_porosity(a.particles, a.cell.volume()), a.cell);
+  return neighbourhood_stresses(a, loaded_branches(a),
+                                even_porosity(a.particles, a.cell.volume()));
 }
 
 TEST_CASE("Around each particle of a crystal is the stress of its cell",

@@ -103,10 +103,10 @@ TEST_CASE("Every inner particle of a crystal under pressure has its stress", "[u
 {
   const Assembly assembly = crystal();
   const Particles& p = assembly.particles;
-  const auto branches = loaded_branches(assembly, {});
+  const auto branches = loaded_branches(assembly);
   const auto n = coordination(p, branches);
   const std::vector<double> porosity(p.size(), 1.0 - pi / 6.0);
-  const auto stress = neighbourhood_stresses(p, branches, porosity);
+  const auto stress = neighbourhood_stresses(assembly, branches, porosity);
   std::size_t n_inner = 0;
   for (Index i = 0; i < p.size(); ++i) {
     const Vec3& x = p.state[i].x;
@@ -139,7 +139,7 @@ TEST_CASE("The section of a crystal under pressure shows its stress and porosity
           "[unit][dem]")
 {
   const Assembly assembly = crystal();
-  const auto branches = loaded_branches(assembly, {});
+  const auto branches = loaded_branches(assembly);
   const SectionSums sums(grid_of_crystal(), assembly.particles, branches,
                          at_rest(assembly.particles.size()), nullptr);
   double worst = 0.0, worst_porosity = 0.0, mean = 0.0, n = 0.0;
@@ -160,7 +160,7 @@ TEST_CASE("The cells of a section have all forces and all solid between them",
           "[unit][dem]")
 {
   const Assembly assembly = crystal();
-  const auto branches = loaded_branches(assembly, {});
+  const auto branches = loaded_branches(assembly);
   const SectionSums sums(grid_of_crystal(), assembly.particles, branches,
                          at_rest(assembly.particles.size()), nullptr);
   double work = 0.0, solid = 0.0, volume = 0.0, of_branches = 0.0;

@@ -59,6 +59,25 @@ TEST_CASE("The cell search finds the pairs of a brute-force search, in ascending
   }
 }
 
+TEST_CASE("Pairs at other positions are those of particles that are there", "[unit][dem]")
+{
+  const Particles there = cloud(600, {0.5, 0.4, 0.3}, 1);
+  std::vector<Vec3> x;
+  Particles elsewhere = there;
+  for (ParticleState& b : elsewhere.state) {
+    x.push_back(b.x);
+    b.x = -3.0 * b.x;
+  }
+  std::vector<char> is_owned(x.size(), 0);
+  for (std::size_t i = 0; i < x.size(); ++i) is_owned[i] = x[i].x() < 0.1;
+  Particles part = there;
+  for (Particles* p : {&part, &elsewhere})
+    p->set_ownership(is_owned, std::vector<char>(x.size(), 0));
+  const auto found = find_pairs(part, {}, 0.01);
+  CHECK(found.size() > 20);
+  CHECK(find_pairs(elsewhere, {}, 0.01, {}, x) == found);
+}
+
 TEST_CASE("The search finds images across the periodic boundaries", "[unit][dem]")
 {
   const auto size =

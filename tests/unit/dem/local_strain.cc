@@ -205,7 +205,7 @@ TEST_CASE("An isolated particle, and one with neighbours in a plane, get the ide
   CHECK(is_undetermined(deformation_of(X, X, {1, 2, 3})));
   CHECK(is_undetermined(deformation_of(X, X, {2, 3, 4, 7, 8})));
   CHECK_FALSE(is_undetermined(deformation_of(X, X, {1, 2, 3, 7, 8})));
-  CHECK(local_deformations({}, {}, {}).empty());
+  CHECK(local_deformations({}, std::vector<Vec3>{}, {}).empty());
 }
 
 TEST_CASE("Neighbours are those within 1.5 (R_i + R_j) of the reference, however far they "
@@ -240,6 +240,39 @@ TEST_CASE("In a strained periodic cell every particle has the strain of the cell
 
   const PeriodicCell narrow{Vec3::Constant(5.99 * R)};
   CHECK_THROWS_AS(local_deformations(X, X, radii(X), narrow, narrow), mergel::InputError);
+}
+
+TEST_CASE(
+    "Strains and velocity gradients of the owned particles are those of all, bit by bit",
+    "[unit][dem]")
+{
+  const std::vector<Vec3> X = disordered(6);
+  std::mt19937_64 random(8);
+  Particles all;
+  for (const Vec3& at : X) {
+    all.add(sphere(at + 0.1 * R * random_vector(random), R));
+    all.state.back().v = random_vector(random);
+  }
+  const auto fits = local_deformations(X, all);
+  const auto gradients = velocity_gradients(all);
+  REQUIRE(fits.size() == X.size());
+  Particles half = all;
+  std::vector<char> is_owned(X.size(), 0);
+  for (Index i = 0; i < X.size(); ++i) is_owned[i] = X[i].x() < 5.0 * R && i % 5 != 2;
+  half.set_ownership(is_owned, std::vector<char>(X.size(), 0));
+  const auto fits_of_half = local_deformations(X, half);
+  const auto gradients_of_half = velocity_gradients(half);
+  REQUIRE(fits_of_half.size() == half.n_owned());
+  REQUIRE(gradients_of_half.size() == half.n_owned());
+  std::size_t k = 0;
+  half.for_owned([&](Index i) {
+    REQUIRE(fits[i].n > 0);
+    REQUIRE((fits_of_half[k].F == fits[i].F));
+    REQUIRE(fits_of_half[k].D2_min == fits[i].D2_min);
+    REQUIRE((gradients_of_half[k] == gradients[i]));
+    ++k;
+  });
+  CHECK(k > 50);
 }
 
 TEST_CASE("The velocity gradient of an affine motion is found by every particle",
