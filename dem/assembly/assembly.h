@@ -18,7 +18,8 @@ namespace mergel::dem {
 ///
 /// On several ranks each holds an entry for all particles, but only those bonds, contacts
 /// and wall contacts that have an owned particle (distribute.h). Losses and works are those
-/// of the owned particles, except those of walls and cell: these are totals on every rank.
+/// of the owned particles, except those of walls and cell: these are totals on every rank, but
+/// for triangulated walls whose nodal forces are shared (NodalSums::share).
 struct Assembly {
   Communicator comm;
   Partition partition;
@@ -46,7 +47,7 @@ struct Assembly {
 
 /// Show each wall to `visit(wall)`: mirrors, triangulated walls, rigid walls, in the order
 /// in which their forces are added. What a wall of any kind can do is a function of the
-/// same name beside each kind: rebuild_wall(), add_wall_forces(), travel(), power(),
+/// same name beside each kind: rebuild_wall(), add_wall_forces(), travel(),
 /// histories(), visit_sums(), save_wall() and load_wall().
 template <class AnyAssembly, class Visit>
 void for_each_wall(AnyAssembly& assembly, Visit&& visit)

@@ -246,6 +246,10 @@ void keep_sums_once(Assembly& assembly)
 void distribute(Assembly& assembly, MPI_Comm comm)
 {
   assembly.comm = Communicator(comm);
+  for (const Wall& wall : assembly.walls)
+    if (wall.f.is_shared() && wall.f.shares().first.size() !=
+                                  static_cast<std::size_t>(assembly.comm.n_ranks()) + 1)
+      throw std::logic_error("the nodes of a wall are shared among other ranks");
   if (assembly.comm.is_alone()) return;
   // A preliminary partition by index: Zoltan needs one owner for each particle.
   const auto n = assembly.particles.size(),
@@ -314,17 +318,21 @@ void gather_wall_histories(Assembly& assembly, Assembly& all)
 void gather_sums(Assembly& assembly, Assembly& all)
 {
   std::vector<ExactWide> parts;
-  visit_sums(assembly, [&](const char*, SumKind kind, auto& sum) {
-    if (kind == SumKind::by_rank)
-      visit_raw(sum, [&](ExactWide& raw) { parts.push_back(raw); });
+  const auto is_in_parts = [](SumKind kind) {
+    return kind == SumKind::by_rank || kind == SumKind::by_node;
+  };
+  visit_sums(assembly, [&](const char*, SumKind kind, const auto& sum) {
+    if (is_in_parts(kind))
+      visit_part(sum, [&](const ExactWide& raw) { parts.push_back(raw); });
   });
   ExactReduction sums;
   for (ExactWide& part : parts) sums.add(part);
   sums.run(assembly.comm);
   auto part = parts.begin();
   visit_sums(all, [&](const char*, SumKind kind, auto& sum) {
-    if (kind == SumKind::by_rank) visit_raw(sum, [&](ExactWide& raw) { raw = *part++; });
+    if (is_in_parts(kind)) visit_raw(sum, [&](ExactWide& raw) { raw = *part++; });
   });
+  for (Wall& wall : all.walls) wall.f.share({}); // they are complete now
 }
 
 void gather_losses(const Assembly& assembly, Assembly& all)

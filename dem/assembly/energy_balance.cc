@@ -13,14 +13,20 @@ EnergyBalance energy_balance(const Assembly& assembly, double dt)
   const Particles& p = assembly.particles;
   KickWork work = assembly.work;
   EnergySum kinetic = kinetic_energy_after_kick(p, assembly.motion, 0.5 * dt, work), walls,
-            mirror;
+            mirror, wall_work;
   PairSums pairs = sum_pairs(material, assembly.cell, p, assembly.bonds, assembly.contacts);
   for (const Mirror& m : assembly.mirrors) mirror += stored_energy(m, material, p);
   for (const Wall& w : assembly.walls) walls += stored_energy(w, material, p);
   for (const RigidWall& w : assembly.rigid_walls) walls += stored_energy(w, p);
+  for (const Wall& w : assembly.walls) {
+    if (!w.f.is_shared() && assembly.comm.rank() > 0) continue; // the total on every rank
+    wall_work += w.work;
+    wall_work += work_over(w, 0.5 * dt);
+  }
   PairLosses losses = assembly.losses;
   ExactReduction sums;
-  for (EnergySum* s : {&kinetic, &pairs.bonds, &pairs.contacts, &walls, &mirror})
+  for (EnergySum* s :
+       {&kinetic, &pairs.bonds, &pairs.contacts, &walls, &mirror, &wall_work})
     sums.add(*s);
   const auto add = [&](const char*, SumKind, EnergySum& s) { sums.add(s); };
   visit_sums(losses, add);
@@ -33,7 +39,7 @@ EnergyBalance energy_balance(const Assembly& assembly, double dt)
   e.walls = walls.value();
 
   e.gravity = work.gravity.value();
-  for (const Wall& w : assembly.walls) e.wall_work += w.work.value() + 0.5 * dt * power(w);
+  e.wall_work = wall_work.value();
   for (const RigidWall& w : assembly.rigid_walls)
     e.rigid_wall_work += w.work.value() + 0.5 * dt * power(w);
   e.cell_work = assembly.cell_work.value() + 0.5 * dt * cell_power(assembly);

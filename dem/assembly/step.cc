@@ -25,7 +25,7 @@ void sum_over_ranks(Assembly& assembly)
   ExactReduction sums;
   for_each_wall(assembly, [&](auto& wall) {
     visit_sums(wall, [&](const char*, SumKind kind, auto& sum) {
-      if (kind == SumKind::forces) sums.add(sum);
+      if (kind == SumKind::forces || kind == SumKind::by_node) sums.add(sum);
     });
   });
   if (assembly.cell.is_strain_controlled) sums.add(assembly.virial);
@@ -145,30 +145,16 @@ double unbalanced_ratio(const Assembly& assembly)
   return forces.value() > 0.0 ? resultants.value() / forces.value() : 0.0;
 }
 
-std::vector<double> wall_powers(const Assembly& assembly)
+void add_wall_work(Assembly& assembly, double dt)
 {
-  std::vector<double> powers;
-  for_each_wall(assembly, [&](const auto& w) { powers.push_back(power(w)); });
-  return powers;
-}
-
-namespace {
-
-void add_work(Mirror&, double) {} // a plane at rest does none
-
-template <class MovingWall>
-void add_work(MovingWall& wall, double work)
-{
-  wall.work.add(work);
-}
-
-} // namespace
-
-void add_wall_work(Assembly& assembly, const std::vector<double>& before, double dt)
-{
-  std::size_t k = 0;
-  for_each_wall(assembly,
-                [&](auto& w) { add_work(w, 0.5 * dt * (before[k++] + power(w))); });
+  for (Wall& w : assembly.walls) {
+    const auto add = [&] { w.work += work_over(w, dt); };
+    if (w.f.is_shared()) // other ranks may find no fault
+      assembly.fault.run(add);
+    else
+      add();
+  }
+  for (RigidWall& w : assembly.rigid_walls) w.work.add(dt * power(w));
 }
 
 double cell_power(const Assembly& assembly)

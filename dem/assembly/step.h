@@ -40,13 +40,9 @@ void advance(Assembly& assembly, double dt_before, double dt, MoveWalls&& move_w
 /// Unbalanced-force ratio of the assembly [-].
 double unbalanced_ratio(const Assembly& assembly);
 
-/// Power of each wall on the particles, from the forces of the last step, at the present
-/// wall velocities [W].
-std::vector<double> wall_powers(const Assembly& assembly);
-
-/// Add the mean of these powers before and after the motion of the walls, over dt [s], to
-/// the works of the walls.
-void add_wall_work(Assembly& assembly, const std::vector<double>& before, double dt);
+/// Add to the works of the walls that of the forces of the last step over dt [s], at the present
+/// wall velocities.
+void add_wall_work(Assembly& assembly, double dt);
 
 /// Power of a strain-controlled cell on the particles, from the virial of the last step at
 /// the present strain rate [W]; 0 for any other cell.
@@ -70,10 +66,10 @@ void advance(Assembly& assembly, double dt_before, double dt, MoveWalls&& move_w
   assembly.list.add_motion(global_largest);
   assembly.times.exchange += wall_clock() - moved;
   // Work of the forces at t^n on the mean motion of the walls around t^n.
-  const std::vector<double> before = wall_powers(assembly);
+  add_wall_work(assembly, 0.5 * dt_kick);
   const double cell_before = cell_power(assembly);
   move_walls(dt);
-  add_wall_work(assembly, before, dt_kick);
+  add_wall_work(assembly, 0.5 * dt_kick);
   if (assembly.cell.is_strain_controlled) {
     assembly.cell_work.add(0.5 * dt_kick * (cell_before + cell_power(assembly)));
     assembly.list.add_strain(strain(assembly.cell, dt, assembly.particles));

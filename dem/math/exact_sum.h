@@ -84,6 +84,7 @@ using VectorSum = ExactVector<ForceSum>;
 enum class SumKind {
   by_rank, ///< each rank its part
   forces,  ///< each rank its part until the end of the step, then every rank the total
+  by_node, ///< the same, but then each rank the totals of its nodes (NodeShares)
   total    ///< every rank the total
 };
 

@@ -6,9 +6,24 @@
 #include "dem/math/simd.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace mergel::dem {
+
+/// Nodes that the ranks share: a block of consecutive nodes each.
+struct NodeShares {
+  /// Of each rank its first node, and at the end the number of nodes; empty: not shared.
+  std::vector<std::size_t> first;
+  std::size_t rank = 0; ///< this one
+
+  bool are_shared() const { return first.size() > 2; }
+};
+
+/// Nodes [first, end).
+struct NodeRange {
+  std::size_t first, end;
+};
 
 /// A force for each node, with the bits of a VectorSum each: every term is rounded to the
 /// quantum by itself. Nearly all sums have room in 64 bits; what has not goes to wide sums, which
@@ -22,6 +37,19 @@ public:
   explicit NodalSums(std::size_t n_nodes = 0) : narrow_(n_nodes, Quanta{}) {}
 
   std::size_t size() const { return narrow_.size(); }
+
+  /// Over ranks each then gets the sums of its nodes only (ExactReduction); those of the other
+  /// nodes are its own part still.
+  void share(NodeShares shares) { shares_ = std::move(shares); }
+  const NodeShares& shares() const { return shares_; }
+  bool is_shared() const { return shares_.are_shared(); }
+  /// Nodes whose sums a rank gets; without sharing all.
+  NodeRange nodes_of(std::size_t rank) const
+  {
+    if (!is_shared()) return {0, size()};
+    return {shares_.first[rank], shares_.first[rank + 1]};
+  }
+  NodeRange own() const { return nodes_of(shares_.rank); }
 
   void clear()
   {
@@ -44,19 +72,16 @@ public:
   /// The sum at a node, of this rank or of all (ExactReduction) [N].
   Vec3 value(std::size_t node) const
   {
-    if (!wide_.empty()) return sum(node).value();
-    const Row row = narrow_row(node);
-    return {row[0], row[1], row[2]};
+    const Row f = row(node);
+    return {f[0], f[1], f[2]};
   }
-  /// The sum over the nodes of the sums times the vectors of a list: in [W] with velocities.
-  double dot(const std::vector<Vec3>& v) const
+  /// The same, with any fourth number.
+  Row row(std::size_t node) const
   {
-    Row products{};
-    for (std::size_t k = 0; k < size(); ++k) {
-      const Row row{v[k].x(), v[k].y(), v[k].z(), 0.0};
-      products += row * (wide_.empty() ? narrow_row(k) : row_of(sum(k).value()));
-    }
-    return products[0] + products[1] + products[2];
+    if (!wide_.empty()) [[unlikely]]
+      return row_of(sum(node).value());
+    constexpr double unit = 1.0 / ForceSum::scale; // a power of 2
+    return __builtin_convertvector(narrow_[node], Row) * unit;
   }
   VectorSum sum(std::size_t node) const
   {
@@ -73,27 +98,44 @@ public:
     narrow_[node] = Quanta{};
   }
 
-  /// Append all sums to a list, if they are 64-bit integers below a limit.
-  /// @returns whether they are
-  bool append_narrow(std::vector<std::int64_t>& to, std::int64_t limit) const
+  /// Whether the sums at these nodes are 64-bit integers below a limit.
+  bool are_narrow(const NodeRange& nodes, std::int64_t limit) const
   {
-    if (!wide_.empty()) return false;
-    const std::size_t first = to.size();
-    to.resize(first + 3 * size());
-    std::int64_t* next = to.data() + first;
     Quanta is_too_large{};
-    for (const Quanta& quanta : narrow_) {
+    for (std::size_t k = nodes.first; k < nodes.end; ++k)
+      is_too_large |= (narrow_[k] >= limit) | (narrow_[k] <= -limit);
+    return wide_.empty() && !any(is_too_large);
+  }
+  /// Write the sums at these nodes to a list, three numbers each, and move its place behind them.
+  /// @returns whether are_narrow(); else they are wrong
+  bool write_narrow(const NodeRange& nodes, std::int64_t limit, std::int64_t*& to) const
+  {
+    Quanta is_too_large{};
+    std::int64_t* next = to;
+    for (std::size_t k = nodes.first; k < nodes.end; ++k) {
+      const Quanta& quanta = narrow_[k];
       is_too_large |= (quanta >= limit) | (quanta <= -limit);
       for (int c = 0; c < 3; ++c) *next++ = quanta[c];
     }
-    return !any(is_too_large);
+    to = next;
+    return wide_.empty() && !any(is_too_large);
   }
-  /// Take the sums of append_narrow(). @returns the first number behind them
+  /// Take the sums at all nodes from such a list. @returns the place behind them
   const std::int64_t* take_narrow(const std::int64_t* from)
   {
     wide_.clear();
     for (Quanta& quanta : narrow_) {
       quanta = Quanta{from[0], from[1], from[2], 0};
+      from += 3;
+    }
+    return from;
+  }
+  /// Add those at its own nodes. @pre all are_narrow() with room for those of all ranks
+  const std::int64_t* add_narrow(const std::int64_t* from)
+  {
+    const auto [first, end] = own();
+    for (std::size_t k = first; k < end; ++k) {
+      narrow_[k] += Quanta{from[0], from[1], from[2], 0};
       from += 3;
     }
     return from;
@@ -104,11 +146,6 @@ private:
   static constexpr int n_terms = 3;
 
   static Row row_of(const Vec3& a) { return Row{a.x(), a.y(), a.z(), 0.0}; }
-  Row narrow_row(std::size_t node) const
-  {
-    constexpr double unit = 1.0 / ForceSum::scale; // a power of 2
-    return __builtin_convertvector(narrow_[node], Row) * unit;
-  }
 
   [[gnu::noinline]] void add_checked(std::size_t node, const Row& force)
   {
@@ -132,6 +169,7 @@ private:
 
   std::vector<Quanta> narrow_;
   std::vector<VectorSum> wide_; ///< empty: all are 0
+  NodeShares shares_;
 };
 
 /// Call visit(ExactWide&) for each component, as of a list of sums.
@@ -149,6 +187,23 @@ void visit_raw(const NodalSums& sums, Visit&& visit)
 {
   for (std::size_t k = 0; k < sums.size(); ++k) {
     const VectorSum sum = sums.sum(k);
+    visit_raw(sum, visit);
+  }
+}
+
+/// Call visit(ExactWide) for each component of this rank's part of a sum: those of all ranks
+/// add up to the total.
+template <class Sum, class Visit>
+void visit_part(const Sum& sum, Visit&& visit)
+{
+  visit_raw(sum, visit);
+}
+template <class Visit>
+void visit_part(const NodalSums& sums, Visit&& visit)
+{
+  const auto [first, end] = sums.own();
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    const VectorSum sum = k >= first && k < end ? sums.sum(k) : VectorSum{};
     visit_raw(sum, visit);
   }
 }

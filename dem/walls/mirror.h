@@ -56,10 +56,6 @@ inline double travel(const Mirror&)
 {
   return 0.0;
 }
-inline double power(const Mirror&)
-{
-  return 0.0;
-}
 
 /// The records that belong to a particle and migrate with it.
 inline auto histories(Mirror& mirror)

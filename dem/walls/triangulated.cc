@@ -1,5 +1,7 @@
 #include "dem/walls/triangulated.h"
 
+#include "dem/math/lane_sum.h"
+
 namespace mergel::dem {
 
 Wall make_wall(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
@@ -29,9 +31,18 @@ EnergySum stored_energy(const Wall& wall, const PairMaterials& material, const P
   return e;
 }
 
-double power(const Wall& wall)
+EnergySum work_over(const Wall& wall, double dt)
 {
-  return -wall.f.dot(wall.v);
+  EnergySum work;
+  {
+    LaneEnergySum<Row> by_component(work);
+    const auto [first, end] = wall.f.own();
+    for (std::size_t k = first; k < end; ++k) {
+      const Vec3& v = wall.v[k];
+      by_component.add(wall.f.row(k) * Row{v.x(), v.y(), v.z(), 0.0} * -dt);
+    }
+  }
+  return work;
 }
 
 WallSums sum_contact_forces(const Wall& wall)

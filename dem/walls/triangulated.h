@@ -119,8 +119,10 @@ struct WallContactForce {
 
 struct Wall {
   WallTopology topology;
-  std::vector<Vec3> x, v;              ///< of the nodes [m], [m/s]; set by the caller
-  NodalSums f;                         ///< on the nodes in the last step, of all ranks [N]
+  std::vector<Vec3> x, v; ///< of the nodes [m], [m/s]; set by the caller
+  /// On the nodes in the last step, of all ranks [N]. Where it is shared each rank has those of
+  /// its nodes only.
+  NodalSums f;
   std::vector<Vec3> x_listed;          ///< nodes when the candidates were found [m]
   std::vector<WallContact> contacts;   ///< candidates, ascending in (particle, patch)
   std::vector<ListedCandidate> listed; ///< by contact
@@ -131,7 +133,9 @@ struct Wall {
   bool is_smooth = false;   ///< bonds and contacts get no shear force
   std::vector<WallContactForce>
       contact_forces; ///< of this rank's contacts and bonds in the last step
-  EnergySum work;     ///< on the particles by the motion of the nodes, of all ranks [J]
+  /// On the particles by the motion of the nodes, of all ranks; where f is shared that of its
+  /// nodes only [J].
+  EnergySum work;
 
   std::span<const NearTriangle> near_triangles(const ListedCandidate& c) const
   {
@@ -180,8 +184,9 @@ void add_wall_forces(Wall& wall, const PairMaterials& material, double dt, Parti
 EnergySum stored_energy(const Wall& wall, const PairMaterials& material,
                         const Particles& p);
 
-/// Power on the particles at the present velocities, from the forces of the last step [W].
-double power(const Wall& wall);
+/// Work of the forces of the last step on the particles while the nodes move at their present
+/// velocities for dt [s]: at all nodes, or where f is shared at those of this rank [J].
+EnergySum work_over(const Wall& wall, double dt);
 
 /// The records that belong to a particle and migrate with it.
 inline auto histories(Wall& wall)
@@ -194,8 +199,9 @@ template <class AnyWall, class Visit>
 requires std::same_as<std::remove_const_t<AnyWall>, Wall>
 void visit_sums(AnyWall& wall, Visit&& visit)
 {
-  visit("force", SumKind::forces, wall.f);
-  visit("work", SumKind::total, wall.work);
+  const bool is_shared = wall.f.is_shared();
+  visit("force", is_shared ? SumKind::by_node : SumKind::forces, wall.f);
+  visit("work", is_shared ? SumKind::by_rank : SumKind::total, wall.work);
 }
 
 /// Position or velocity of an anchor, from those of the nodes.

@@ -10,8 +10,8 @@ shift
 ranks() { on_ranks "$@"; }
 
 ranks 1 "$scenes" sums >one || fail "sums on one rank"
-[ "$(wc -l <one)" -eq 20 ] || fail "sums: twenty lines on one rank"
-for n in 2 3 4; do
+[ "$(wc -l <one)" -eq 40 ] || fail "sums: forty lines on one rank"
+for n in 2 3 4 8; do
   ranks $n "$scenes" sums >other || fail "sums on $n ranks"
   cmp one other || fail "sums on $n ranks differ from one"
 done

@@ -10,8 +10,8 @@
 ///   element    the same box, compressed along z until bonds break; stress-controlled x, y
 ///   debris     the block at rest, hit by a few fragments that fly between it and a wall
 ///   varied     the same, with strengths that vary from particle to particle
-///   sums       none of these: forces on nodes that are added over the ranks, of ordinary size
-///              and without room in 64 bits on one rank or on all
+///   sums       none of these: forces on nodes that are added over the ranks, on each or shared,
+///              of ordinary size and without room in 64 bits on one rank or on all
 ///   rebuild    lists are also built at every 7th step
 ///   rebalance  particles change ranks at every 50th step, by arbitrary weights; histories
 ///              that two ranks hold are compared
@@ -317,10 +317,17 @@ void start(apps::WorkingAssembly& w)
   w.dt = w.dt_before = default_safety * w.stable_step.limit;
 }
 
-/// Forces on five nodes, each term from one rank, of up to 10^`decade` N.
-void add_up(double decade, const Communicator& comm)
+/// Forces on five nodes, each term from one rank, of up to 10^`decade` N. With `shared` each rank
+/// gets those of its nodes.
+void add_up(double decade, bool shared, const Communicator& comm)
 {
-  NodalSums sums(5);
+  NodalSums sums(5), of_others(2);
+  if (shared) {
+    NodeShares shares{{}, static_cast<std::size_t>(comm.rank())};
+    const auto n = static_cast<std::size_t>(comm.n_ranks());
+    for (std::size_t r = 0; r <= n; ++r) shares.first.push_back(5 * r / n);
+    sums.share(std::move(shares));
+  }
   ForceSum beside;
   for (std::uint64_t k = 0; k < 20000; ++k) {
     const auto draw = [&](std::uint64_t c) {
@@ -329,16 +336,22 @@ void add_up(double decade, const Communicator& comm)
     const Row force{draw(0), draw(1), draw(2), 0.0};
     if (static_cast<int>(k % 7) % comm.n_ranks() != comm.rank()) continue;
     sums.add(k % 5, force);
+    of_others.add(k % 2, force);
     beside.add(draw(3));
   }
   ExactReduction all;
+  all.add(of_others);
   all.add(sums);
   all.add(beside);
   all.run(comm);
+  std::vector<Vec3> f;
+  const auto [first, end] = sums.own();
+  for (std::size_t k = first; k < end; ++k) f.push_back(sums.value(k));
+  if (sums.is_shared()) f = comm.gather(f);
   if (comm.rank() != 0) return;
-  for (std::size_t k = 0; k < sums.size(); ++k)
-    std::printf("%g %zu %a %a %a %a\n", decade, k, sums.value(k).x(), sums.value(k).y(),
-                sums.value(k).z(), beside.value());
+  for (std::size_t k = 0; k < f.size(); ++k)
+    std::printf("%g %zu %a %a %a %a %a\n", decade, k, f[k].x(), f[k].y(), f[k].z(),
+                of_others.value(k % 2).x(), beside.value());
 }
 
 void run(const std::string& name, const Options& o)
@@ -404,7 +417,8 @@ int main(int argc, char** argv)
     if (argc > 1 && argv[1] == std::string("sums"))
       // 64 bits hold 8 kN
       for (const double decade : {-3.0, 0.0, 2.0, 6.0})
-        add_up(decade, Communicator(MPI_COMM_WORLD));
+        for (const bool shared : {false, true})
+          add_up(decade, shared, Communicator(MPI_COMM_WORLD));
     else
       run(argc > 1 ? argv[1] : "", o);
   } catch (const std::exception& e) {

@@ -22,8 +22,9 @@ void save_sums(State& state, const Assembly& assembly)
   ExactReduction partial;
   visit_sums(assembly, [&](const char* name, SumKind kind, const auto& sum) {
     std::vector<ExactWide>& raw = all["sum_" + std::string(name)];
-    visit_raw(sum, [&](const ExactWide& a) { raw.push_back(a); });
-    if (kind == SumKind::by_rank)
+    const bool is_in_parts = kind == SumKind::by_rank || kind == SumKind::by_node;
+    visit_part(sum, [&](const ExactWide& a) { raw.push_back(a); });
+    if (is_in_parts)
       for (ExactWide& a : raw) partial.add(a);
   });
   partial.run(assembly.comm);

@@ -38,10 +38,6 @@ TEST_CASE("Nodal sums have the bits of exact sums, whatever the size of their te
     exact[node].add(f);
   }
   check_same(sums, exact);
-  double work = 0.0;
-  const std::vector<Vec3> v{{1, 2, 3}, {-1, 0, 2}, {0.5, 0, 0}, {7, 7, 7}};
-  for (std::size_t k = 0; k < 4; ++k) work += exact[k].value().dot(v[k]);
-  CHECK(sums.dot(v) == Approx(work).epsilon(1e-12));
 }
 
 TEST_CASE("Many large terms at one node do not overflow 64 bits", "[unit][dem]")
@@ -58,14 +54,13 @@ TEST_CASE("Many large terms at one node do not overflow 64 bits", "[unit][dem]")
 TEST_CASE("A force of some newtons leaves the sums in 64 bits, some kilonewtons do not",
           "[unit][dem]")
 {
-  std::vector<std::int64_t> values;
+  constexpr std::int64_t limit = std::int64_t{1} << 61;
   NodalSums sums(1);
   for (int n = 0; n < 100; ++n) sums.add(0, Row{15.0, -3.0, 0.0, 0.0});
-  CHECK(sums.append_narrow(values, std::int64_t{1} << 61));
+  CHECK(sums.are_narrow({0, 1}, limit));
   CHECK(sums.value(0) == Vec3(1500.0, -300.0, 0.0));
   sums.add(0, Row{1000.0, 0.0, 0.0, 0.0});
-  values.clear();
-  CHECK_FALSE(sums.append_narrow(values, std::int64_t{1} << 61));
+  CHECK_FALSE(sums.are_narrow({0, 1}, limit));
   CHECK(sums.value(0) == Vec3(2500.0, -300.0, 0.0));
 }
 
@@ -83,18 +78,47 @@ TEST_CASE("Sums that leave no room for those of the other ranks do not go as 64 
   NodalSums sums(3);
   sums.add(2, Row{1.0, -1.5, 0.25, 0.0});
   const auto quanta = static_cast<std::int64_t>(1.5 * ForceSum::scale);
-  std::vector<std::int64_t> values{7};
-  CHECK_FALSE(sums.append_narrow(values, quanta));
-  values = {7};
-  REQUIRE(sums.append_narrow(values, quanta + 1));
-  REQUIRE(values.size() == 10);
+  std::vector<std::int64_t> values(10, 7);
+  const auto write = [&](const NodeRange& nodes, std::int64_t limit) {
+    std::int64_t* next = values.data() + 1;
+    const bool has_room = sums.write_narrow(nodes, limit, next);
+    CHECK(next == values.data() + 1 + 3 * (nodes.end - nodes.first));
+    return has_room;
+  };
+  CHECK_FALSE(write({0, 3}, quanta));
+  CHECK(write({0, 2}, quanta)); // the large one is elsewhere
+  CHECK_FALSE(sums.are_narrow({2, 3}, quanta));
+  REQUIRE(write({0, 3}, quanta + 1));
+  CHECK(values.front() == 7);
   NodalSums taken(3);
   CHECK(taken.take_narrow(values.data() + 1) == values.data() + 10);
   CHECK(taken.value(2) == Vec3(1.0, -1.5, 0.25));
   CHECK(taken.value(0) == Vec3(0.0, 0.0, 0.0));
   sums.add(0, Row{1e5, 0.0, 0.0, 0.0}); // a wide sum
-  values.clear();
-  CHECK_FALSE(sums.append_narrow(values, std::int64_t{1} << 61));
+  CHECK_FALSE(write({1, 2}, std::int64_t{1} << 61));
   sums.clear();
   CHECK(sums.value(0) == Vec3(0.0, 0.0, 0.0));
+}
+
+TEST_CASE("Of shared sums a rank adds those of others at its own nodes only", "[unit][dem]")
+{
+  NodalSums sums(4);
+  CHECK_FALSE(sums.is_shared());
+  CHECK(sums.own().end == 4);
+  sums.share({{0, 1, 3, 4}, 1});
+  REQUIRE(sums.is_shared());
+  CHECK(sums.own().first == 1);
+  CHECK(sums.own().end == 3);
+  CHECK(sums.nodes_of(2).first == 3);
+  for (std::size_t k = 0; k < 4; ++k) sums.add(k, Row{1.0, 0.0, 0.0, 0.0});
+  const auto one = static_cast<std::int64_t>(ForceSum::scale);
+  const std::vector<std::int64_t> others{one, 2 * one, 0, 0, 0, -one};
+  CHECK(sums.add_narrow(others.data()) == others.data() + others.size());
+  CHECK(sums.value(0) == Vec3(1.0, 0.0, 0.0));
+  CHECK(sums.value(1) == Vec3(2.0, 2.0, 0.0));
+  CHECK(sums.value(2) == Vec3(1.0, 0.0, -1.0));
+  CHECK(sums.value(3) == Vec3(1.0, 0.0, 0.0));
+  ExactWide part = 0; // the parts of all ranks are the total
+  visit_part(sums, [&](const ExactWide& raw) { part += raw; });
+  CHECK((part == ExactWide{one} * 4));
 }
