@@ -23,6 +23,11 @@ CoupledSystem::CoupledSystem(const CoupledSpec& spec, std::vector<StructureSpec>
                           Exchange(std::move(interface.transfer), structure)});
     assembly.walls.push_back(std::move(interface.wall));
     assembly.walls.back().bonds_yield = s.bonds_yield;
+    const dem::NodeShares shares = structure.shares();
+    if (shares.are_shared() && !structures.back().exchange.transfer().is_identity())
+      throw std::logic_error(
+          "nodes of a structure are shared that are not those of its wall");
+    assembly.walls.back().f.share(shares);
   }
 }
 

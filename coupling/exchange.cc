@@ -2,6 +2,8 @@
 
 #include "dem/timer.h"
 
+#include <cmath>
+
 namespace mergel::coupling {
 
 Exchange::Exchange(Transfer transfer, Structure& structure)
@@ -12,9 +14,11 @@ Exchange::Exchange(Transfer transfer, Structure& structure)
 const Nodal& Exchange::sum_forces(const dem::Wall& wall)
 {
   const double start = dem::wall_clock();
-  f_wall_.resize(wall.f.size());
-  for (std::size_t k = 0; k < wall.f.size(); ++k) f_wall_[k] = wall.f.value(k);
-  transfer_.to_structure(f_wall_, f_s_);
+  Nodal& f = transfer_.is_identity() ? f_s_ : f_wall_;
+  f.resize(wall.f.size());
+  const auto [first, end] = wall.f.own();
+  for (std::size_t k = first; k < end; ++k) f[k] = wall.f.value(k);
+  if (!transfer_.is_identity()) transfer_.to_structure(f_wall_, f_s_);
   exchange_seconds += dem::wall_clock() - start;
   return f_s_;
 }
@@ -29,9 +33,17 @@ void Exchange::step_structure(double dt)
 void Exchange::move_wall(dem::Wall& wall, double dt)
 {
   const double start = dem::wall_clock();
-  structure_.velocities(v_s_);
-  transfer_.to_wall(v_s_, wall.v);
-  for (std::size_t k = 0; k < wall.x.size(); ++k) wall.x[k] += dt * wall.v[k];
+  if (transfer_.is_identity()) {
+    structure_.velocities(wall.v);
+  } else {
+    structure_.velocities(v_s_);
+    transfer_.to_wall(v_s_, wall.v);
+  }
+  const auto n = static_cast<Eigen::Index>(3 * wall.x.size());
+  Eigen::Map<Eigen::ArrayXd> x(wall.x.front().data(), n), v(wall.v.front().data(), n);
+  if (!std::isfinite(v.sum()))
+    throw NumericalError("a structure moves without bound: the run is unstable");
+  x += dt * v;
   exchange_seconds += dem::wall_clock() - start;
 }
 

@@ -13,7 +13,7 @@ public:
   Exchange(Transfer transfer, Structure& structure);
 
   /// Up: the forces of the wall nodes, summed to the nodes of the structure, f_s = N^T
-  /// f_wall.
+  /// f_wall; where nodes are shared those of this rank.
   const Nodal& sum_forces(const dem::Wall& wall);
 
   /// One step of the structure over dt [s] under the forces that were summed last.
@@ -21,6 +21,7 @@ public:
 
   /// Down: the wall nodes get the velocities of the structure, v_wall = N v_s, and move
   /// with them over dt [s].
+  /// @throws NumericalError on all ranks alike for a velocity that is not finite
   void move_wall(dem::Wall& wall, double dt);
 
   /// Static solution of a structure that has not moved yet, under the present wall forces

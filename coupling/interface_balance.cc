@@ -5,7 +5,20 @@
 
 namespace mergel::coupling {
 
-InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
+namespace {
+
+/// Of all wall nodes, on every rank.
+Nodal gather_forces(const dem::Wall& wall, const dem::Communicator& comm)
+{
+  Nodal f;
+  const auto [first, end] = wall.f.own();
+  for (std::size_t k = first; k < end; ++k) f.push_back(wall.f.value(k));
+  return wall.f.is_shared() ? comm.gather(f) : f;
+}
+
+} // namespace
+
+InterfaceBalance interface_balance(const Exchange& exchange, const dem::Wall& wall,
                                    const dem::Communicator& comm)
 {
   dem::WallSums sums = dem::sum_contact_forces(wall);
@@ -14,16 +27,17 @@ InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
   all.add(sums.moment);
   all.add(sums.power);
   all.run(comm);
-  const Nodal& f_s = exchange.sum_forces(wall);
-  Nodal x_s, v_s;
+  const Nodal f_wall = gather_forces(wall, comm);
+  Nodal f_s, x_s, v_s;
+  exchange.transfer().to_structure(f_wall, f_s);
   exchange.structure().positions(x_s);
   exchange.structure().velocities(v_s);
 
   // Forces on the structure and on the particles sum to zero.
   dem::Vec3 force = sums.force.value(), moment = sums.moment.value();
   double power = 0.0, sum_f = 0.0, sum_m = 0.0, sum_p = 0.0;
-  for (std::size_t k = 0; k < wall.f.size(); ++k) {
-    const dem::Vec3 f = wall.f.value(k);
+  for (std::size_t k = 0; k < f_wall.size(); ++k) {
+    const dem::Vec3& f = f_wall[k];
     sum_f += f.norm();
     sum_m += wall.x[k].norm() * f.norm();
     sum_p += wall.v[k].norm() * f.norm();

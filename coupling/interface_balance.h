@@ -22,7 +22,7 @@ struct InterfaceBalance {
 /// The collar does not rotate with the rim, so contacts on the collar leave a moment of
 /// force times height. Everything else balances to round-off. Collective.
 /// @param comm of the assembly to which the wall belongs
-InterfaceBalance interface_balance(Exchange& exchange, const dem::Wall& wall,
+InterfaceBalance interface_balance(const Exchange& exchange, const dem::Wall& wall,
                                    const dem::Communicator& comm);
 
 /// The larger of each difference.

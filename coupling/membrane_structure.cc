@@ -27,9 +27,9 @@ template <class State>
 auto fields_of(const std::string& name, State& s)
 {
   return std::array<std::pair<std::string, decltype(&s.x)>, 4>{{{name + "_x", &s.x},
-                                                                {name + "_v", &s.v},
                                                                 {name + "_own", &s.f_own},
-                                                                {name + "_f", &s.f}}};
+                                                                {name + "_f", &s.f},
+                                                                {name + "_work", &s.work}}};
 }
 
 template <class State>
@@ -43,10 +43,7 @@ dem::NumbersOf<State> numbers_of(State& s)
                             {"time since they kicked [s]", &s.since},
                             {"pressure of its work [Pa]", &s.work_pressure},
                             {"volume of its work [m3]", &w.V},
-                            {"work of the particles [J]", &s.load_work},
-                            {"work of the pressure [J]", &s.pressure_work},
-                            {"work of the platens [J]", &s.guide_work},
-                            {"loss by damping [J]", &s.damping}};
+                            {"work of the pressure [J]", &s.pressure_work}};
   const char* const ends[] = {"bottom", "top"};
   for (std::size_t end = 0; end < 2; ++end)
     for (int c = 0; c < 3; ++c) {
@@ -73,7 +70,29 @@ dem::NumbersOf<Limit> subcycle_numbers(Limit& limit)
 
 constexpr double largest_window = 0.7; // of the subcycle times the largest frequency [-]
 
-constexpr std::size_t nodal_columns = 4; // x, y, z and a fourth number for alignment
+/// Add the columns of a field, as rows of the state, that belong to this rank's nodes.
+template <class Field>
+void add_nodal(dem::State& state, const std::string& name, const Field& field,
+               const fem::NodeShares& nodes)
+{
+  const auto n = static_cast<Eigen::Index>(Field::RowsAtCompileTime);
+  std::vector<double> rows(field.data() + n * nodes.first(),
+                           field.data() + n * nodes.end());
+  const auto columns = static_cast<std::size_t>(n);
+  if (nodes.is_alone()) // the ranks of the state may be more
+    state.add_common(name, std::move(rows), columns);
+  else
+    state.add(name, std::move(rows), columns);
+}
+
+template <class Field>
+void load_nodal(const dem::State& state, const std::string& name, Field& field)
+{
+  const auto& rows =
+      state.get_rows<double>(name, static_cast<std::size_t>(field.cols()),
+                             static_cast<std::size_t>(Field::RowsAtCompileTime));
+  std::copy(rows.begin(), rows.end(), field.data());
+}
 
 } // namespace
 
@@ -93,6 +112,16 @@ Interface MembraneStructure::interface(const dem::ContactLaw& contact) const
   return {dem::make_wall(mesh.x, mesh.triangles, contact), follow(itself, itself.size())};
 }
 
+dem::NodeShares MembraneStructure::shares() const
+{
+  const fem::NodeShares& nodes = motion_.membrane().shares();
+  if (nodes.is_alone()) return {};
+  dem::NodeShares shares{{}, nodes.rank()};
+  for (const Eigen::Index first : nodes.first_of_rank())
+    shares.first.push_back(static_cast<std::size_t>(first));
+  return shares;
+}
+
 void MembraneStructure::positions(Nodal& x) const
 {
   x.resize(n_nodes());
@@ -102,9 +131,9 @@ void MembraneStructure::positions(Nodal& x) const
 
 void MembraneStructure::velocities(Nodal& v) const
 {
+  const fem::NodalMessage& of_nodes = motion_.state().v;
   v.resize(n_nodes());
-  for (std::size_t k = 0; k < v.size(); ++k)
-    v[k] = fem::at(motion_.state().v, static_cast<Eigen::Index>(k));
+  std::copy(of_nodes.data(), of_nodes.data() + of_nodes.size(), v.front().data());
 }
 
 void MembraneStructure::step(double dt, const Nodal& f)
@@ -198,10 +227,10 @@ StructureEnergies MembraneStructure::energies() const
 void MembraneStructure::save(dem::State& state, const std::string& name) const
 {
   const fem::MembraneState& s = motion_.state();
+  const fem::NodeShares& nodes = motion_.membrane().shares();
   for (const auto& [array, field] : fields_of(name, s))
-    state.add_common(array,
-                     std::vector<double>(field->data(), field->data() + field->size()),
-                     nodal_columns);
+    add_nodal(state, array, *field, nodes);
+  add_nodal(state, name + "_v", s.v, nodes);
   state.add_common(name + "_m", std::vector<double>(s.m.data(), s.m.data() + s.m.size()),
                    1);
   dem::save_numbers(state, name + "_numbers", numbers_of(s));
@@ -212,11 +241,8 @@ void MembraneStructure::save(dem::State& state, const std::string& name) const
 void MembraneStructure::load(const dem::State& state, const std::string& name)
 {
   fem::MembraneState s = motion_.state();
-  for (const auto& [array, field] : fields_of(name, s)) {
-    const auto& values = state.get_rows<double>(
-        array, static_cast<std::size_t>(field->cols()), nodal_columns);
-    std::copy(values.begin(), values.end(), field->data());
-  }
+  for (const auto& [array, field] : fields_of(name, s)) load_nodal(state, array, *field);
+  load_nodal(state, name + "_v", s.v);
   const auto& m = state.get_rows<double>(name + "_m", n_nodes());
   std::copy(m.begin(), m.end(), s.m.data());
   dem::load_numbers(state, name + "_numbers", numbers_of(s));

@@ -28,6 +28,7 @@ public:
   const fem::MembraneMotion& motion() const { return motion_; }
 
   Interface interface(const dem::ContactLaw& contact) const override;
+  dem::NodeShares shares() const override;
   bool moves() const override { return true; }
   void positions(Nodal& x) const override;
   void velocities(Nodal& v) const override;
@@ -47,6 +48,7 @@ public:
                 std::span<double> to) const override;
   double unbalanced_ratio() const override { return motion_.unbalanced_ratio(); }
   StructureEnergies energies() const override;
+  /// Each rank writes the rows of its nodes.
   void save(dem::State& state, const std::string& name) const override;
   void load(const dem::State& state, const std::string& name) override;
 

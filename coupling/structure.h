@@ -52,8 +52,8 @@ struct StructureEnergies {
 /// order of the columns of the transfer; forces are those of the particles on the
 /// structure [N].
 ///
-/// Every rank holds the complete structure, gives it the same forces and gets the same
-/// bits. Member functions are collective.
+/// Every rank holds the complete structure and gets the same bits. It gives it the same forces,
+/// but for a structure that shares its nodes. Member functions are collective.
 ///
 /// Leapfrog, in step with the particles: positions belong to whole steps, velocities to
 /// half steps, and the kick takes the mean of the old and the new step (the first kick the
@@ -65,6 +65,10 @@ public:
   /// The wall of its interface faces, with normals towards the particles.
   virtual Interface interface(const dem::ContactLaw& contact) const = 0;
 
+  /// The nodes whose forces it wants on each rank; by default every rank has all. Nodes can be
+  /// shared where the transfer is the identity.
+  virtual dem::NodeShares shares() const { return {}; }
+
   /// Whether it takes part in the steps. One that does not is held in its reference
   /// position.
   virtual bool moves() const = 0;
@@ -74,7 +78,8 @@ public:
   virtual void positions(Nodal& x) const = 0;
   virtual void velocities(Nodal& v) const = 0;
 
-  /// One step of dt [s] > 0 under the forces f at the present positions.
+  /// One step of dt [s] > 0 under the forces f at the present positions; where nodes are shared
+  /// those of other ranks' nodes are not given.
   virtual void step(double dt, const Nodal& f) = 0;
 
   /// Static equilibrium under these forces, from the reference position: displacements of

@@ -21,6 +21,7 @@ public:
   /// @throws std::logic_error when a row does not sum to 1 within round-off
   explicit Transfer(Eigen::SparseMatrix<double, Eigen::RowMajor> N);
 
+  bool is_identity() const { return is_identity_; }
   std::size_t n_wall() const { return static_cast<std::size_t>(N_.rows()); }
   std::size_t n_structure() const { return static_cast<std::size_t>(N_.cols()); }
 

@@ -13,6 +13,9 @@ using Mat3 = Eigen::Matrix3d;
 /// One column per node: x, y, z and a fourth entry that is always zero.
 using NodalField = Eigen::Array<double, 4, Eigen::Dynamic>;
 
+/// The same without the fourth entry, as ranks send it.
+using NodalMessage = Eigen::Array<double, 3, Eigen::Dynamic>;
+
 /// Two points of a mesh coincide, or one lies on a plane, within this share of the size of the
 /// mesh [-].
 inline constexpr double coincidence = 1e-9;
@@ -24,6 +27,11 @@ using NodeLanes [[gnu::vector_size(32)]] = double;
 inline Vec3 at(const NodalField& field, Eigen::Index a)
 {
   return field.col(a).head<3>().matrix();
+}
+
+inline Vec3 at(const NodalMessage& field, Eigen::Index a)
+{
+  return field.col(a).matrix();
 }
 
 /// Sum of a.b over all nodes.

@@ -43,7 +43,8 @@ Vec3 vec3(const Vector<double>& a)
 
 Membrane::Membrane(const dealii::Triangulation<2, 3>& mesh,
                    const MembraneMaterial& material, MPI_Comm comm)
-    : rest_(surface_of(mesh)), material_(material), comm_(comm)
+    : rest_(surface_of(mesh)), material_(material), shares_(n_nodes(), comm),
+      first_corner_(shares_.first()), end_corner_(shares_.end())
 {
   material_.check();
   std::map<std::pair<int, int>, std::size_t> seen;
@@ -59,30 +60,16 @@ Membrane::Membrane(const dealii::Triangulation<2, 3>& mesh,
     }
   }
 
-  int rank = 0, n_ranks = 1;
-  if (comm_ != MPI_COMM_NULL) {
-    MPI_Comm_rank(comm_, &rank);
-    MPI_Comm_size(comm_, &n_ranks);
-  }
-  const int n = static_cast<int>(rest_.x.size());
-  const auto first_node = [&](int r) {
-    return static_cast<int>(static_cast<long long>(n) * r / n_ranks);
-  };
-  for (int r = 0; r < n_ranks; ++r) {
-    start_.push_back(4 * first_node(r));
-    count_.push_back(4 * (first_node(r + 1) - first_node(r)));
-  }
-  if (n_ranks == 1) comm_ = MPI_COMM_NULL;
-
   // All triangles of its nodes, ascending: each node adds its triangles in the same order
   // whoever computes it.
   std::size_t lane = n_lanes;
   for (std::size_t t = 0; t < elements_.size(); ++t) {
     const SurfaceTriangle& k = rest_.triangles[t];
-    if (std::none_of(k.begin(), k.end(), [&](int a) {
-          return a >= first_node(rank) && a < first_node(rank + 1);
-        }))
-      continue;
+    if (std::none_of(k.begin(), k.end(), [&](int a) { return shares_.has(a); })) continue;
+    for (const int a : k) {
+      first_corner_ = std::min<Eigen::Index>(first_corner_, a);
+      end_corner_ = std::max<Eigen::Index>(end_corner_, a + 1);
+    }
     if (lane == n_lanes) {
       batches_.emplace_back();
       corners_.emplace_back();
@@ -126,10 +113,10 @@ Eigen::ArrayXd Membrane::masses() const
   return m;
 }
 
-void Membrane::start(const NodalField& x, double pressure, NodalField& f)
+void Membrane::forces(const NodalField& x, double pressure, NodalField& f) const
 {
-  finish();
-  f.setZero(4, n_nodes());
+  f.resize(4, n_nodes());
+  f.middleCols(first_corner_, end_corner_ - first_corner_).setZero();
   for (std::size_t k = 0; k < batches_.size(); ++k) {
     const auto& corner = corners_[k];
     Vector<Lanes> a, b;
@@ -154,14 +141,6 @@ void Membrane::start(const NodalField& x, double pressure, NodalField& f)
         store(f, node, load(f, node) + force);
       }
   }
-  if (comm_ != MPI_COMM_NULL)
-    MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, f.data(), count_.data(),
-                    start_.data(), MPI_DOUBLE, comm_, &request_);
-}
-
-void Membrane::finish()
-{
-  if (request_ != MPI_REQUEST_NULL) MPI_Wait(&request_, MPI_STATUS_IGNORE);
 }
 
 MembraneStrain<double> Membrane::strain(std::size_t t, const NodalField& x) const

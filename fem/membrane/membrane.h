@@ -4,8 +4,7 @@
 
 #include "fem/membrane/membrane_element.h"
 #include "fem/membrane/membrane_mesh.h"
-
-#include <mpi.h>
+#include "fem/membrane/node_shares.h"
 
 namespace mergel::fem {
 
@@ -44,33 +43,23 @@ struct EnclosedVolume {
 
 class Membrane {
 public:
-  /// @param comm ranks that share the triangles; MPI_COMM_NULL: one rank, without MPI
+  /// @param comm ranks that share the nodes; MPI_COMM_NULL: one rank, without MPI
   /// @throws std::invalid_argument as material.check()
   Membrane(const dealii::Triangulation<2, 3>& mesh, const MembraneMaterial& material,
            MPI_Comm comm = MPI_COMM_NULL);
-  Membrane(const Membrane&) = delete;
-  Membrane& operator=(const Membrane&) = delete;
-  Membrane(Membrane&&) = default;
-  ~Membrane() { finish(); }
 
   const SurfaceMesh& rest() const { return rest_; }
+  const NodeShares& shares() const { return shares_; }
   const MembraneMaterial& material() const { return material_; }
   Eigen::Index n_nodes() const { return static_cast<Eigen::Index>(rest_.x.size()); }
   NodalField rest_positions() const;
   /// A third of its triangles' mass for each node [kg].
   Eigen::ArrayXd masses() const;
 
-  /// Forces on the nodes at x under this pressure on the side from which the corners run
-  /// clockwise: -dW/dx + p dV/dx. Each rank computes those of its nodes and sends them while
-  /// the ranks do something else; f is complete after finish(). Both are collective, and f
-  /// must stay where it is until then. No bit depends on the number of ranks.
-  void start(const NodalField& x, double pressure, NodalField& f);
-  void finish();
-  void forces(const NodalField& x, double pressure, NodalField& f)
-  {
-    start(x, pressure, f);
-    finish();
-  }
+  /// Forces on the nodes of this rank at x under this pressure on the side from which the corners
+  /// run clockwise: -dW/dx + p dV/dx. Of f other nodes may get any number. No bit depends on the
+  /// number of ranks.
+  void forces(const NodalField& x, double pressure, NodalField& f) const;
 
   double strain_energy(const NodalField& x) const; ///< [J]
   MembraneFields fields(const NodalField& x) const;
@@ -86,16 +75,14 @@ public:
   Eigen::ArrayXd stiffness_bound(const NodalField& x) const;
 
 private:
-  struct Batch;
   MembraneStrain<double> strain(std::size_t t, const NodalField& x) const;
 
   SurfaceMesh rest_;
   MembraneMaterial material_;
   std::vector<RestTriangle<double>> elements_;
   std::vector<std::array<std::size_t, 2>> edges_; ///< pairs of neighbouring triangles
-  MPI_Comm comm_;
-  MPI_Request request_ = MPI_REQUEST_NULL;
-  std::vector<int> count_, start_;           ///< of doubles of f, by rank
+  NodeShares shares_;
+  Eigen::Index first_corner_, end_corner_; ///< nodes of the triangles of this rank's nodes
   std::vector<RestTriangle<Lanes>> batches_; ///< of the triangles of this rank's nodes
   std::vector<std::array<std::uint32_t, 3 * n_lanes>> corners_; ///< by batch
   std::size_t n_mine_ = 0; ///< triangles in the batches

@@ -12,6 +12,9 @@ namespace {
 /// Windows after which the work of the pressure is added: it changes little in these.
 constexpr std::size_t windows_between_volumes = 50;
 
+/// Rows of MembraneState::work.
+enum { row_of_load, row_of_guides, row_of_damping };
+
 /// Work of a pressure p on the side of a tube while its volume changed: the polygons at its
 /// ends are not part of it.
 double work_on_side(double p, const EnclosedVolume& from, const EnclosedVolume& to)
@@ -32,7 +35,8 @@ MembraneMotion::MembraneMotion(Membrane membrane, const Tube& tube, double alpha
     throw std::invalid_argument("local damping of the membrane = " + std::to_string(alpha) +
                                 ": must satisfy 0 <= damping < 1");
   const Eigen::Index n = membrane_.n_nodes();
-  now_.v = now_.f_own = now_.f = next_f_own_ = NodalField::Zero(4, n);
+  now_.f_own = now_.f = now_.work = NodalField::Zero(4, n);
+  now_.v = NodalMessage::Zero(3, n);
   now_.x = membrane_.rest_positions();
   free_ = NodalField::Constant(4, n, 1.0);
   free_.row(3).setZero();
@@ -47,15 +51,8 @@ MembraneMotion::MembraneMotion(Membrane membrane, const Tube& tube, double alpha
   set_masses(membrane_.masses());
 }
 
-MembraneMotion::~MembraneMotion()
-{
-  membrane_.finish(); // may still receive next_f_own_
-}
-
 void MembraneMotion::set_masses(const Eigen::ArrayXd& m)
 {
-  membrane_.finish();
-  is_begun_ = false;
   now_.m = m;
   inverse_m_ = m.inverse();
   now_.v.setZero();
@@ -65,14 +62,16 @@ void MembraneMotion::set_masses(const Eigen::ArrayXd& m)
 
 /// Own forces over window_kick, nodal forces over dt_kick. Damping sees both, and acts with
 /// the former, against the mean motion in a window.
-void MembraneMotion::kick(double dt_kick, double window_kick)
+void MembraneMotion::kick(double dt_kick, double window_kick, std::span<const Vec3> given)
 {
   const NodeLanes zero{};
-  NodeLanes load_work{}, damping{};
   const bool takes_own = window_kick > 0.0;
   const double saw = window_kick - dt_kick;
-  for (Eigen::Index a = 0; a < membrane_.n_nodes(); ++a) {
-    const NodeLanes f = load(now_.f, a), v = load(now_.v, a), is_free = load(free_, a);
+  const NodeShares& nodes = membrane_.shares();
+  for (Eigen::Index a = nodes.first(); a < nodes.end(); ++a) {
+    const Vec3& force = given[static_cast<std::size_t>(a)];
+    const NodeLanes f{force.x(), force.y(), force.z(), 0.0};
+    const NodeLanes v = load(now_.v, a), is_free = load(free_, a);
     NodeLanes impulse = f * dt_kick, lost{};
     if (takes_own) {
       const NodeLanes own = load(now_.f_own, a), all = f + own;
@@ -84,31 +83,39 @@ void MembraneMotion::kick(double dt_kick, double window_kick)
     }
     const NodeLanes v_new = v + impulse * inverse_m_[a] * is_free;
     const NodeLanes v_mean = 0.5 * (v + v_new);
-    load_work += f * v_mean * dt_kick * is_free;
-    damping += lost * v_mean;
+    const NodeLanes work{sum(f * v_mean * dt_kick * is_free), 0.0, sum(lost * v_mean), 0.0};
+    store(now_.f, a, f);
     store(now_.v, a, v_new);
+    store(now_.work, a, load(now_.work, a) + work);
   }
-  now_.load_work += sum(load_work);
-  now_.damping += sum(damping);
 }
 
 /// Velocities of the guided components. The guide gives the impulse that is missing.
 void MembraneMotion::guide(double dt_kick, double window_kick, std::span<const Vec3> guided,
-                           const NodalField& v_before)
+                           const NodalMessage& v_before)
 {
   std::size_t k = 0;
   for (const GuidedNodes& g : guides_)
     for (const int a : g.nodes) {
+      const std::size_t of = k++;
+      if (!membrane_.shares().has(a)) continue;
       for (int c = g.along_z_only ? 2 : 0; c < 3; ++c) {
-        const double v = v_before(c, static_cast<Eigen::Index>(k)), v_new = guided[k][c];
+        const double v = v_before(c, static_cast<Eigen::Index>(of)), v_new = guided[of][c];
         const double given = now_.f(c, a) * dt_kick + now_.f_own(c, a) * window_kick;
         const double missing = now_.m[a] * (v_new - v) - given, v_mean = 0.5 * (v + v_new);
-        now_.load_work += now_.f(c, a) * dt_kick * v_mean;
-        now_.guide_work += missing * v_mean;
+        now_.work(row_of_load, a) += now_.f(c, a) * dt_kick * v_mean;
+        now_.work(row_of_guides, a) += missing * v_mean;
         now_.v(c, a) = v_new;
       }
-      ++k;
     }
+}
+
+/// The ranks complete the velocities, and each moves all nodes.
+void MembraneMotion::move(double dt)
+{
+  membrane_.shares().gather(now_.v);
+  for (Eigen::Index a = 0; a < membrane_.n_nodes(); ++a)
+    store(now_.x, a, load(now_.x, a) + dt * load(now_.v, a));
 }
 
 void MembraneMotion::step(double dt, std::span<const Vec3> f, std::span<const Vec3> guided)
@@ -116,9 +123,7 @@ void MembraneMotion::step(double dt, std::span<const Vec3> f, std::span<const Ve
   const Eigen::Index n = membrane_.n_nodes();
   if (static_cast<Eigen::Index>(f.size()) != n)
     throw std::invalid_argument("membrane: a force for each node is needed");
-  for (Eigen::Index a = 0; a < n; ++a)
-    now_.f.col(a).head<3>() = f[static_cast<std::size_t>(a)].array();
-  NodalField before(4, static_cast<Eigen::Index>(guided.size()));
+  NodalMessage before(3, static_cast<Eigen::Index>(guided.size()));
   Eigen::Index k = 0;
   for (const GuidedNodes& g : guides_)
     for (const int a : g.nodes) before.col(k++) = now_.v.col(a);
@@ -132,10 +137,7 @@ void MembraneMotion::step(double dt, std::span<const Vec3> f, std::span<const Ve
       add_pressure_work();
       now_.next_pressure = now_.work_pressure = now_.pressure;
     }
-    if (!is_begun_) membrane_.start(now_.x, now_.next_pressure, next_f_own_);
-    membrane_.finish();
-    is_begun_ = false;
-    std::swap(now_.f_own, next_f_own_);
+    membrane_.forces(now_.x, now_.next_pressure, now_.f_own);
     // From rest a window of one step: the saw of the next ones is then even about rest.
     const std::size_t s = now_.since > 0.0 ? now_.subcycle : 1;
     const double window = dt * static_cast<double>(s);
@@ -145,17 +147,13 @@ void MembraneMotion::step(double dt, std::span<const Vec3> f, std::span<const Ve
     now_.since = 0.0;
     if (++now_.n_volume >= windows_between_volumes) add_pressure_work();
   }
-  kick(dt_kick, window_kick);
+  kick(dt_kick, window_kick, f);
   guide(dt_kick, window_kick, guided, before);
+  move(dt);
   now_.since += dt;
   --now_.n_left;
-  now_.x += dt * now_.v;
   now_.dt = dt;
-  if (now_.n_left > 0) return;
-  now_.next_pressure = now_.pressure;
-  membrane_.start(now_.x, now_.pressure,
-                  next_f_own_); // on its way while the particles move
-  is_begun_ = true;
+  if (now_.n_left == 0) now_.next_pressure = now_.pressure;
 }
 
 void MembraneMotion::add_pressure_work()
@@ -171,16 +169,14 @@ void MembraneMotion::add_pressure_work()
 void MembraneMotion::restore(MembraneState state)
 {
   const Eigen::Index n = membrane_.n_nodes();
-  for (const NodalField* field : {&state.x, &state.v, &state.f_own, &state.f})
-    if (field->cols() != n)
-      throw std::invalid_argument(
-          "state of the membrane: " + std::to_string(field->cols()) +
-          " nodes, the mesh has " + std::to_string(n) +
-          "; restart with the mesh of the first run");
+  for (const Eigen::Index n_state : {state.x.cols(), state.v.cols(), state.f_own.cols(),
+                                     state.f.cols(), state.work.cols()})
+    if (n_state != n)
+      throw std::invalid_argument("state of the membrane: " + std::to_string(n_state) +
+                                  " nodes, the mesh has " + std::to_string(n) +
+                                  "; restart with the mesh of the first run");
   if (state.m.size() != n || !(state.m > 0.0).all())
     throw std::invalid_argument("state of the membrane: a node without mass");
-  membrane_.finish();
-  is_begun_ = false;
   now_ = std::move(state);
   inverse_m_ = now_.m.inverse();
 }
@@ -190,18 +186,20 @@ MembraneEnergies MembraneMotion::energies() const
   // The own forces gave their impulse from half a window before their kick to half a window
   // after it. Less what lies ahead, the velocity saws no more.
   const double ahead = 0.5 * (now_.window + now_.dt) - now_.since;
-  const NodalField x = now_.x - 0.5 * now_.dt * now_.v,
-                   v = now_.v -
-                       ahead * ((free_ * now_.f_own).rowwise() * inverse_m_.transpose());
+  const NodalField f_own = membrane_.shares().gathered(now_.f_own),
+                   work = membrane_.shares().gathered(now_.work);
+  NodalField x = now_.x, v = -ahead * ((free_ * f_own).rowwise() * inverse_m_.transpose());
+  x.topRows<3>() -= 0.5 * now_.dt * now_.v;
+  v.topRows<3>() += now_.v;
   MembraneEnergies e;
   e.kinetic = 0.5 * (v.square().colwise().sum() * now_.m.transpose()).sum();
   e.strain = membrane_.strain_energy(x);
-  e.load_work = now_.load_work;
+  e.load_work = work.row(row_of_load).sum();
   e.pressure_work =
       now_.pressure_work + work_on_side(0.5 * (now_.work_pressure + now_.next_pressure),
                                         now_.work_volume, membrane_.enclosed(x, tube_));
-  e.guide_work = now_.guide_work;
-  e.damping = now_.damping;
+  e.guide_work = work.row(row_of_guides).sum();
+  e.damping = work.row(row_of_damping).sum();
   return e;
 }
 
@@ -210,8 +208,10 @@ double MembraneMotion::unbalanced_ratio() const
   const auto size = [&](const NodalField& f) {
     return (f * free_).matrix().colwise().norm().sum();
   };
-  const double scale = size(now_.f) + size(now_.f_own);
-  return scale > 0.0 ? size(now_.f + now_.f_own) / scale : 0.0;
+  const NodalField f = membrane_.shares().gathered(now_.f),
+                   f_own = membrane_.shares().gathered(now_.f_own);
+  const double scale = size(f) + size(f_own);
+  return scale > 0.0 ? size(f + f_own) / scale : 0.0;
 }
 
 } // namespace mergel::fem

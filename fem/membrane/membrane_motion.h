@@ -31,12 +31,17 @@ struct MembraneEnergies {
   double damping = 0.0;
 };
 
-/// What a restart needs to continue with the same bits.
+/// What a restart needs to continue with the same bits. Fields that are said to be of its nodes
+/// have what a rank needs there; elsewhere they have any number.
 struct MembraneState {
-  NodalField x;               ///< x^{n+1} [m]
-  NodalField v;               ///< v^{n+1/2} [m/s]
-  NodalField f_own;           ///< of stretch and pressure at the start of the window [N]
-  NodalField f;               ///< nodal forces of the last step [N]
+  NodalField x;   ///< x^{n+1} [m]
+  NodalMessage v; ///< v^{n+1/2} [m/s]
+  NodalField
+      f_own;    ///< of stretch and pressure at the start of the window, of its nodes [N]
+  NodalField f; ///< nodal forces of the last step, of its nodes [N]
+  /// Of its nodes, a column each: work of the nodal forces, work of the guides, loss by
+  /// damping, 0 [J].
+  NodalField work;
   Eigen::ArrayXd m;           ///< [kg], > 0
   double pressure = 0.0;      ///< as set last [Pa]
   double next_pressure = 0.0; ///< in the own forces computed last [Pa]
@@ -48,20 +53,22 @@ struct MembraneState {
   double work_pressure = 0.0; ///< pressure up to which its work is added [Pa]
   EnclosedVolume work_volume; ///< and the volume
   std::size_t n_volume = 0;   ///< windows since
-  double load_work = 0.0, pressure_work = 0.0, guide_work = 0.0, damping = 0.0; ///< [J]
+  double pressure_work = 0.0; ///< [J]
 };
 
 /// Moves a membrane: leapfrog as for the far field (fem/README.md, Explicit step), with its own
 /// forces, those of stretch and pressure, at every s-th step by impulse.
+///
+/// Each rank kicks its own nodes and tells the others their velocities; then every rank moves all
+/// nodes. No bit depends on the number of ranks.
 class MembraneMotion {
 public:
   /// @param alpha local damping [-], in [0, 1)
   MembraneMotion(Membrane membrane, const Tube& tube, double alpha,
                  std::vector<GuidedNodes> guides);
-  MembraneMotion(MembraneMotion&&) = delete;
-  ~MembraneMotion();
 
-  /// One step of dt [s] > 0 under the nodal forces f [N].
+  /// One step of dt [s] > 0 under the nodal forces f [N]; those of other ranks' nodes are not
+  /// read. Collective.
   /// @param guided velocity over the step of the nodes of all guides, one after the other
   ///   [m/s]
   void step(double dt, std::span<const Vec3> f, std::span<const Vec3> guided);
@@ -78,26 +85,26 @@ public:
   const MembraneState& state() const { return now_; }
   /// Whether a component of a node is free.
   const Eigen::Array<double, 4, Eigen::Dynamic>& free() const { return free_; }
+  /// @param state its fields complete
   void restore(MembraneState state);
 
-  MembraneEnergies energies() const;
-  /// Sum of |f| over the free components of all nodes, over that of its two parts.
+  MembraneEnergies energies() const; ///< collective
+  /// Sum of |f| over the free components of all nodes, over that of its two parts. Collective.
   double unbalanced_ratio() const;
   EnclosedVolume enclosed() const { return membrane_.enclosed(now_.x, tube_); }
 
 private:
-  void kick(double dt_kick, double window_kick);
+  void kick(double dt_kick, double window_kick, std::span<const Vec3> f);
   void guide(double dt_kick, double window_kick, std::span<const Vec3> guided,
-             const NodalField& v_before);
+             const NodalMessage& v_before);
+  void move(double dt);
   void add_pressure_work();
 
   Membrane membrane_;
   Tube tube_;
   double alpha_;
   std::vector<GuidedNodes> guides_;
-  NodalField free_;       // 1 where free, 0 where guided
-  NodalField next_f_own_; // of the window that begins next
-  bool is_begun_ = false; // next_f_own_ is on its way
+  NodalField free_; // 1 where free, 0 where guided
   Eigen::ArrayXd inverse_m_;
   MembraneState now_;
 };

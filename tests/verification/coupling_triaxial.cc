@@ -136,7 +136,7 @@ TEST_CASE("A specimen at rest in a membrane has the virial of cell pressure, pla
   // but for the ends, which the platens hold along z.
   const fem::NodalField& x = motion.state().x;
   fem::NodalField all, own;
-  fem::Membrane& membrane = const_cast<fem::Membrane&>(motion.membrane());
+  const fem::Membrane& membrane = motion.membrane();
   membrane.forces(x, p, all);
   membrane.forces(x, 0.0, own);
   const fem::MembraneTensions tensions = motion.membrane().tensions(x);

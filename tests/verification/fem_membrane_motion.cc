@@ -132,7 +132,7 @@ TEST_CASE("A pressure set before the first step acts in it and does the work p d
   motion.set_pressure(p_end);
   motion.step(dt, no_load, {});
   const NodalField v = f.rowwise() * (dt * m.inverse()).transpose();
-  CHECK((motion.state().v - v).abs().maxCoeff() < 1e-14 * v.abs().maxCoeff());
+  CHECK((motion.state().v - v.topRows<3>()).abs().maxCoeff() < 1e-14 * v.abs().maxCoeff());
 
   for (int i = 0; i < 100; ++i) motion.step(dt, no_load, {});
   const MembraneEnergies e = motion.energies();
