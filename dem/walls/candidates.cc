@@ -1,6 +1,6 @@
 /// Candidates of a triangulated wall, and new wall bonds.
-#include "dem/walls/triangle.h"
-#include "dem/walls/triangulated.h"
+#include "dem/walls/closest_on_triangle.h"
+#include "dem/walls/feature_numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,34 +10,6 @@
 namespace mergel::dem {
 
 namespace {
-
-/// Closest point of a triangle.
-struct ClosestPoint {
-  Vec3 weight; ///< barycentric
-  Vec3 point;
-};
-
-ClosestPoint closest_on_triangle(const Vec3& c, const Vec3& a, const Vec3& b, const Vec3& d)
-{
-  const TriangleRegions<double> r(triple(c), triple(a), triple(b), triple(d));
-  if (r.at_corner_a()) return {{1, 0, 0}, a};
-  if (r.at_corner_b()) return {{0, 1, 0}, b};
-  if (r.at_corner_d()) return {{0, 0, 1}, d};
-  if (r.at_edge_ab()) { // d1 - d3 = |ab|^2 > 0
-    const double s = r.d1 / (r.d1 - r.d3);
-    return {{1 - s, s, 0}, a + s * (b - a)};
-  }
-  if (r.at_edge_da()) { // d2 - d6 = |ad|^2 > 0
-    const double s = r.d2 / (r.d2 - r.d6);
-    return {{1 - s, 0, s}, a + s * (d - a)};
-  }
-  if (r.at_edge_bd()) { // the sum is |bd|^2 > 0
-    const double s = (r.d4 - r.d3) / ((r.d4 - r.d3) + (r.d5 - r.d6));
-    return {{0, 1 - s, s}, b + s * (d - b)};
-  }
-  const TrianglePoint<double> at = point_of_face(r);
-  return {vec3(at.weight), vec3(at.x)};
-}
 
 ClosestPoint closest_on(const Wall& wall, int t, const Vec3& c)
 {
@@ -60,65 +32,6 @@ Vec3 closest_point_of_wall(const Wall& wall, const std::vector<int>& triangles,
   }
   return point;
 }
-
-} // namespace
-
-namespace {
-
-/// Numbers the corners and edges of a candidate's triangles.
-class FeatureNumbers {
-public:
-  explicit FeatureNumbers(const WallTopology& topo)
-      : topo_(topo), node_(topo.around.size()), listed_(topo.triangles.size())
-  {
-  }
-
-  /// @param near the triangles of the candidate, ascending
-  void number(ListedCandidate& candidate, std::span<NearTriangle> near)
-  {
-    ++candidate_;
-    std::size_t n_nodes = 0, n_edges = 0;
-    for (NearTriangle& t : near) {
-      t.n_fans = topo_.n_fans[uz(t.triangle)];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto bit = static_cast<std::uint8_t>(1u << k);
-        Mark& node = node_[uz(topo_.triangles[uz(t.triangle)][k])];
-        if (node.candidate != candidate_) {
-          node = {candidate_, n_nodes++};
-          t.owns_node |= bit;
-        }
-        t.node[k] = static_cast<std::uint16_t>(node.number);
-
-        const int other = topo_.across[uz(t.triangle)][k];
-        if (other < 0) t.begins_fan |= bit;
-        if (other >= 0 && other < t.triangle &&
-            listed_[uz(other)].candidate == candidate_) {
-          const std::size_t e = place_of(t.triangle, topo_.across[uz(other)]);
-          t.edge[k] = near[listed_[uz(other)].number].edge[e];
-        } else {
-          t.edge[k] = static_cast<std::uint16_t>(n_edges++);
-          t.owns_edge |= bit;
-        }
-      }
-      listed_[uz(t.triangle)] = {candidate_, static_cast<std::size_t>(&t - near.data())};
-    }
-    candidate.n_nodes = n_nodes;
-    candidate.n_edges = n_edges;
-    if (n_edges > std::numeric_limits<std::uint16_t>::max())
-      throw NumericalError("a particle reaches " + std::to_string(near.size()) +
-                           " triangles of a wall: mesh it more coarsely");
-  }
-
-private:
-  struct Mark {
-    std::size_t candidate = 0, number = 0;
-  };
-
-  const WallTopology& topo_;
-  std::vector<Mark> node_;   ///< by node of the wall
-  std::vector<Mark> listed_; ///< by triangle of the wall
-  std::size_t candidate_ = 0;
-};
 
 } // namespace
 

@@ -37,26 +37,24 @@ Vec3 weighted_normal(const Wall& wall, int t, std::size_t corner)
   return std::atan2(a.cross(b).norm(), a.dot(b)) * normal(wall, t);
 }
 
-/// Whether c is on the side of the particles of the feature that is closest to it: by the mean
-/// normal of the triangles around, weighted with their angles. At the boundary of a wall there
-/// is no wrong side.
-/// Source: Baerentzen and Aanaes (2005), IEEE Trans. Vis. Comput. Graph. 11, 243.
-bool is_in_front(const Wall& wall, const PatchFeature& nearest)
+} // namespace
+
+bool is_in_front(const Wall& wall, const PatchFeature& feature)
 {
   using On = PatchFeature::On;
   const WallTopology& topo = wall.topology;
-  const int t = nearest.at.triangle;
+  const int t = feature.at.triangle;
   Vec3 n;
-  if (nearest.on == On::face) {
+  if (feature.on == On::face) {
     const Triangle& k = topo.triangles[uz(t)];
     const Vec3& x = wall.x[uz(k[0])];
     n = (wall.x[uz(k[1])] - x).cross(wall.x[uz(k[2])] - x);
-  } else if (nearest.on == On::edge) {
-    const int other = topo.across[uz(t)][uz(nearest.which)];
+  } else if (feature.on == On::edge) {
+    const int other = topo.across[uz(t)][uz(feature.which)];
     if (other < 0) return true;
     n = normal(wall, t) + normal(wall, other);
   } else {
-    const int node = topo.triangles[uz(t)][uz(nearest.which)];
+    const int node = topo.triangles[uz(t)][uz(feature.which)];
     n.setZero();
     for (const int around : topo.around[uz(node)]) {
       const std::size_t here = place_of(node, topo.triangles[uz(around)]);
@@ -65,10 +63,8 @@ bool is_in_front(const Wall& wall, const PatchFeature& nearest)
       n += weighted_normal(wall, around, here);
     }
   }
-  return nearest.n.dot(n) < 0.0;
+  return feature.n.dot(n) < 0.0;
 }
-
-} // namespace
 
 /// Collects triangles, and looks at n_lanes of them together.
 class PatchFeatures::Scan {
@@ -233,12 +229,13 @@ void PatchFeatures::find(const Wall& wall, const ListedCandidate& candidate,
 }
 
 void PatchFeatures::find_within(const Wall& wall, const ListedCandidate& candidate,
-                                const Vec3& x, double reach)
+                                std::span<const NearTriangle> near, const Vec3& x,
+                                double reach)
 {
   Scan scan(*this, wall, candidate, x, reach);
-  for (const NearTriangle& near : wall.near_triangles(candidate)) {
-    const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(near.triangle)][0])];
-    if ((x - corner).dot(normal(wall, near.triangle)) <= reach) scan.add(near); // its plane
+  for (const NearTriangle& t : near) {
+    const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(t.triangle)][0])];
+    if ((x - corner).dot(normal(wall, t.triangle)) <= reach) scan.add(t); // its plane
   }
   scan.finish();
 }

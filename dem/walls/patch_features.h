@@ -23,6 +23,11 @@ struct PatchFeature {
   double sign;
 };
 
+/// Whether the centre is on the side of the particles, by the mean normal of the triangles around
+/// the feature, weighted with their angles. At the boundary of a wall there is no wrong side.
+/// Source: Baerentzen and Aanaes (2005), IEEE Trans. Vis. Comput. Graph. 11, 243.
+bool is_in_front(const Wall& wall, const PatchFeature& feature);
+
 /// The features of a candidate's patch in contact. The energy of the contact is the sum of
 /// sign times that of each overlap. So a flat patch acts as one contact wherever its edges and
 /// corners lie, the sides of a deep valley act each by itself, and between these force and
@@ -43,7 +48,13 @@ public:
             const ParticleState& particle, double wall_travel);
   /// Of all that lie within `reach` [m] of a centre x; an overlap is reach - distance.
   void find_within(const Wall& wall, const ListedCandidate& candidate, const Vec3& x,
-                   double reach);
+                   double reach)
+  {
+    find_within(wall, candidate, wall.near_triangles(candidate), x, reach);
+  }
+  /// @param near the triangles of the candidate, instead of those that the wall lists
+  void find_within(const Wall& wall, const ListedCandidate& candidate,
+                   std::span<const NearTriangle> near, const Vec3& x, double reach);
 
   const std::vector<PatchFeature>& found() const { return found_; }
   /// The closest point of the patch. @pre found() is not empty

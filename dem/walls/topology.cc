@@ -10,9 +10,6 @@ namespace mergel::dem {
 
 namespace {
 
-/// Cosine of the largest fold inside a smooth patch.
-const double cos_fold = std::cos(pi / 6.0);
-
 Vec3 area_vector(const std::vector<Vec3>& x, const Triangle& t)
 {
   const auto at = [&](int k) {
@@ -23,7 +20,8 @@ Vec3 area_vector(const std::vector<Vec3>& x, const Triangle& t)
 
 } // namespace
 
-WallTopology make_topology(const std::vector<Vec3>& x, std::vector<Triangle> triangles)
+WallTopology make_topology(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
+                           double cos_fold)
 {
   WallTopology topo;
   topo.triangles = std::move(triangles);

@@ -48,10 +48,15 @@ struct WallTopology {
   std::vector<std::vector<int>> around; ///< by node: its triangles
 };
 
+/// Cosine of the largest fold inside a smooth patch: 30 degrees, or any.
+inline const double smooth_fold = std::cos(pi / 6.0);
+inline constexpr double any_fold = -2.0;
+
 /// @param x reference node positions [m]
 /// @throws InputError for a triangle without area, a node that does not exist, an edge of
 ///   more than two triangles, or normals that disagree
-WallTopology make_topology(const std::vector<Vec3>& x, std::vector<Triangle> triangles);
+WallTopology make_topology(const std::vector<Vec3>& x, std::vector<Triangle> triangles,
+                           double cos_fold = smooth_fold);
 
 /// A point that moves with a triangle.
 struct Anchor {

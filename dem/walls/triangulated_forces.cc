@@ -3,7 +3,7 @@
 #include "dem/math/lane_sum.h"
 #include "dem/pairs/batch.h"
 #include "dem/pairs/strength.h"
-#include "dem/walls/patch_features.h"
+#include "dem/walls/feature_forces.h"
 #include "dem/walls/triangle.h"
 
 #include <algorithm>
@@ -164,74 +164,15 @@ private:
     step_.add_to_wall(contact.particle, f, only, v);
   }
 
-  /// Normal forces of all features, each along its own normal. Their resultant bounds the one
-  /// shear force, whose spring has the overlap that has their energy.
   void add_several(WallContact& contact, const ParticleState& particle)
   {
-    const ContactSides<double> sides = sides_at_wall(particle.R);
-    const PatchFeature& nearest = features_.nearest();
-    const double f_nearest = normal_force(law_, sides, nearest.overlap),
-                 e_nearest = contact_energy(law_, sides, nearest.overlap, 0.0);
-    Vec3 pressure = Vec3::Zero(), x = pressure, v = pressure, v_nearest = pressure;
-    double energy = 0.0, pressing = 0.0;
     acting_.clear();
-    for (const PatchFeature& f : features_.found()) {
-      const double f_n = f.sign * normal_force(law_, sides, f.overlap);
-      acting_.push_back({f_n, at(step_.wall.v, step_.wall.topology, f.at)});
-      if (&f == &nearest) v_nearest = acting_.back().v;
-      pressure += f_n * f.n;
-      energy += f.sign * contact_energy(law_, sides, f.overlap, 0.0);
-      pressing += f_n;
-      x += f_n * f.point;
-      v += f_n * acting_.back().v;
-    }
-    // What presses in all is at least the force of the nearest feature, but where the particle
-    // bridges several pits: there the nearest one makes up for it.
-    const double all = std::max(pressing, f_nearest), at_nearest = 1.0 - pressing / all;
-    x = x / all + at_nearest * nearest.point;
-    v = v / all + at_nearest * v_nearest;
-    // The energy of a law grows with a power of the overlap: f_n overlap/energy.
-    const double power = f_nearest * nearest.overlap / e_nearest;
-    const double overlap =
-        nearest.overlap * std::pow(std::abs(energy) / e_nearest, 1.0 / power);
-    if (energy > 0.0) {
-      const double size = pressure.norm();
-      step_shear(contact, particle, overlap, size,
-                 {triple(size > 0.0 ? Vec3(pressure / size) : nearest.n),
-                  activation_gap(law_) * particle.S - overlap, triple(x), triple(v)});
-    } else {
-      open_contact(law_, particle.R, contact, step_.losses);
-      contact.overlap = -overlap;
-    }
-
-    Load& load = step_.p.load[contact.particle];
-    load.t += (x - particle.x).cross(contact.f_s); // normals pass through the centre
-    for (std::size_t k = 0; k < acting_.size(); ++k) {
-      const PatchFeature& f = features_.found()[k];
-      const double f_n = acting_[k].f_n;
-      Vec3 force = f_n / all * contact.f_s - f_n * f.n;
-      if (&f == &nearest) force += at_nearest * contact.f_s;
-      load.f += force;
-      step_.add_to_wall(contact.particle, force, f, acting_[k].v);
-    }
-  }
-
-  /// For one feature this is the contact law.
-  /// @param overlap of the energy of all features [m], > 0
-  /// @param pressure size of their resultant [N]
-  void step_shear(WallContact& contact, const ParticleState& particle, double overlap,
-                  double pressure, const WallPoint<double>& at)
-  {
-    const ContactSides<double> sides = sides_at_wall(particle.R);
-    ContactMotion<double> by =
-        motion_at_wall(end_of(particle), at, triple(contact.f_s), step_.dt);
-    by.du_n = contact.overlap - overlap;
-    Law law = law_;
-    law.mu *= pressure / normal_force(law_, sides, overlap);
-    const ContactStep<double> now = contact_step(law, sides, particle.S, by);
-    if (now.slip_loss != 0.0) step_.losses.slip.add(now.slip_loss);
-    contact.f_s = vec3(now.f_s);
-    contact.overlap = overlap;
+    for (const PatchFeature& f : features_.found())
+      acting_.push_back({&f, at(step_.wall.v, step_.wall.topology, f.at)});
+    add_feature_forces(law_, acting_, step_.dt, particle, step_.p.load[contact.particle],
+                       contact, step_.losses);
+    for (const ActingFeature& acting : acting_)
+      step_.add_to_wall(contact.particle, acting.force, *acting.feature, acting.v);
   }
 
   void add_batch()
@@ -292,13 +233,8 @@ private:
   std::size_t contact_[n_lanes];
   Index particle_[n_lanes];
   int triangle_[n_lanes];
-  /// Normal force of a feature, and the velocity of the wall there.
-  struct Acting {
-    double f_n; ///< [N]
-    Vec3 v;     ///< [m/s]
-  };
-  PatchFeatures features_;     ///< of the contact at hand
-  std::vector<Acting> acting_; ///< by feature of a contact with several
+  PatchFeatures features_;            ///< of the contact at hand
+  std::vector<ActingFeature> acting_; ///< of a contact with several
 };
 
 /// Bonds to a wall, a batch at a time.
