@@ -66,21 +66,6 @@ void add_pair(Springs& s, const Assembly& a, const Closing& closing, const Pair&
   if (k.k_n > 0.0) s.pairs.push_back(k);
 }
 
-void add_wall(Springs& s, const Assembly& a, const Closing& closing, const RigidWall& wall)
-{
-  for (const WallContact& c : wall.contacts) {
-    const ParticleState& b = a.particles.state[c.particle];
-    const SurfacePoint at = with_particle_id(a.particles.id[c.particle],
-                                             [&] { return closest_point(wall, b); });
-    const double overlap =
-        closing.overlap(activation_gap(wall.material) * b.S - at.gap,
-                        (b.v - wall.velocity_at(at.point)).dot(at.n), b.S);
-    if (!(overlap > 0.0)) continue;
-    const auto k = contact_stiffness(wall.material, sides_at_wall(b.R), overlap);
-    s.walls.push_back({c.particle, b.R + at.gap, at.n, k.k_n, k.k_s});
-  }
-}
-
 /// Springs along the principal directions of the stiffness of several features of a patch, in
 /// which saddles count against. They act at the nearest feature, where the shear spring is.
 std::vector<WallSpring> principal(const std::vector<WallSpring>& of_features,
@@ -102,6 +87,65 @@ std::vector<WallSpring> principal(const std::vector<WallSpring>& of_features,
   return springs;
 }
 
+/// Springs to the features of a surface that count.
+/// @param v_at velocity of the wall at a feature
+template <class Velocity, class ToSpring>
+void add_features(Springs& s, const Closing& closing, const ContactLaw& law,
+                  const ParticleState& b, const std::vector<PatchFeature>& found,
+                  Velocity&& v_at, ToSpring&& spring_of)
+{
+  const double g_a = activation_gap(law) * b.S;
+  Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
+  std::vector<WallSpring> springs; // by feature
+  for (const PatchFeature& f : found) {
+    const Vec3 v = b.v - v_at(f);
+    const Vec3 n = (f.point - b.x) / f.distance;
+    const double overlap = closing.overlap(g_a - (f.distance - b.R), v.dot(n), b.S);
+    if (!(overlap > 0.0)) continue;
+    const auto k = contact_stiffness(law, sides_at_wall(b.R), overlap);
+    springs.push_back(spring_of(f, n, f.sign * k.k_n, k.k_s));
+    stiffness += f.sign * k.k_n * n * n.transpose();
+  }
+  if (springs.size() > 1) springs = principal(springs, stiffness);
+  s.walls.insert(s.walls.end(), springs.begin(), springs.end());
+}
+
+void add_polyhedron(Springs& s, const Assembly& a, const Closing& closing,
+                    const RigidWall& wall)
+{
+  FeaturesOfWall features(wall);
+  for (const WallContact& c : wall.contacts) {
+    const ParticleState& b = a.particles.state[c.particle];
+    const double reach = b.R + activation_gap(wall.material) * b.S + closing.limit * b.S;
+    const std::vector<PatchFeature>& found = with_particle_id(
+        a.particles.id[c.particle],
+        [&]() -> const std::vector<PatchFeature>& { return features.find(b.x, reach); });
+    add_features(
+        s, closing, wall.material, b, found,
+        [&](const PatchFeature& f) { return wall.velocity_at(f.point); },
+        [&](const PatchFeature& f, const Vec3& n, double k_n, double k_s) {
+          return WallSpring{c.particle, f.distance, n, k_n, k_s};
+        });
+  }
+}
+
+void add_wall(Springs& s, const Assembly& a, const Closing& closing, const RigidWall& wall)
+{
+  if (std::holds_alternative<Polyhedron>(wall.shape))
+    return add_polyhedron(s, a, closing, wall);
+  for (const WallContact& c : wall.contacts) {
+    const ParticleState& b = a.particles.state[c.particle];
+    const SurfacePoint at = with_particle_id(a.particles.id[c.particle],
+                                             [&] { return closest_point(wall, b); });
+    const double overlap =
+        closing.overlap(activation_gap(wall.material) * b.S - at.gap,
+                        (b.v - wall.velocity_at(at.point)).dot(at.n), b.S);
+    if (!(overlap > 0.0)) continue;
+    const auto k = contact_stiffness(wall.material, sides_at_wall(b.R), overlap);
+    s.walls.push_back({c.particle, b.R + at.gap, at.n, k.k_n, k.k_s});
+  }
+}
+
 void add_wall(Springs& s, const Assembly& a, const Closing& closing, const Wall& wall)
 {
   const std::size_t number = closing.walls_move
@@ -112,20 +156,13 @@ void add_wall(Springs& s, const Assembly& a, const Closing& closing, const Wall&
     const ParticleState& b = a.particles.state[wall.contacts[c].particle];
     const double g_a = activation_gap(wall.material) * b.S;
     features.find_within(wall, wall.listed[c], b.x, b.R + g_a + closing.limit * b.S);
-    Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
-    std::vector<WallSpring> springs; // by feature
-    for (const PatchFeature& f : features.found()) {
-      const Vec3 v = b.v - at(wall.v, wall.topology, f.at);
-      const Vec3 n = (f.point - b.x) / f.distance;
-      const double overlap = closing.overlap(g_a - (f.distance - b.R), v.dot(n), b.S);
-      if (!(overlap > 0.0)) continue;
-      const auto k = contact_stiffness(wall.material, sides_at_wall(b.R), overlap);
-      springs.push_back(
-          {wall.contacts[c].particle, f.distance, n, f.sign * k.k_n, k.k_s, number, f.at});
-      stiffness += f.sign * k.k_n * n * n.transpose();
-    }
-    if (springs.size() > 1) springs = principal(springs, stiffness);
-    s.walls.insert(s.walls.end(), springs.begin(), springs.end());
+    add_features(
+        s, closing, wall.material, b, features.found(),
+        [&](const PatchFeature& f) { return at(wall.v, wall.topology, f.at); },
+        [&](const PatchFeature& f, const Vec3& n, double k_n, double k_s) {
+          return WallSpring{
+              wall.contacts[c].particle, f.distance, n, k_n, k_s, number, f.at};
+        });
   }
   for (const WallBond& bond : wall.bonds) {
     if (bond.state.intact == 0.0) continue;

@@ -60,9 +60,9 @@ std::vector<LoadedBranch> loaded_branches(const Assembly& assembly)
   for (const RigidWall& wall : assembly.rigid_walls)
     for (const WallContact& c : wall.contacts) {
       if (c.overlap <= 0.0) continue;
-      const RigidContact at = read_contact(wall, c, p);
-      all.push_back({c.particle, c.particle, BranchEnd::rigid,
-                     at.point - p.state[c.particle].x, at.f});
+      for (const RigidContact& at : read_contacts(wall, c, p))
+        all.push_back({c.particle, c.particle, BranchEnd::rigid,
+                       at.point - p.state[c.particle].x, at.f});
     }
   return all;
 }

@@ -30,7 +30,7 @@ std::ptrdiff_t SectionGrid::cell_at(const Vec3& x) const
   return static_cast<std::ptrdiff_t>(index(column, static_cast<int>(z)));
 }
 
-double SectionGrid::volume(int column, int row, const Revolution* pile, const Vec3& x) const
+double SectionGrid::volume(int column, int row, const RigidShape* pile, const Vec3& x) const
 {
   constexpr int n = 10;
   const double inner = (std::abs(column - n_r + 0.5) - 0.5) * h, outer = inner + h;

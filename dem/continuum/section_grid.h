@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dem/notation.h"
-#include "dem/walls/revolution.h"
+#include "dem/walls/rigid_wall.h"
 
 #include <cstddef>
 
@@ -42,7 +42,7 @@ struct SectionGrid {
 
   /// Volume of a cell less what the pile takes of it when it stands at x on the
   /// axis [m^3]. The height of the cell is divided into ten for that.
-  double volume(int column, int row, const Revolution* pile, const Vec3& x) const;
+  double volume(int column, int row, const RigidShape* pile, const Vec3& x) const;
 };
 
 /// The grid of a half cylinder below z = 0, and some way above.

@@ -111,7 +111,7 @@ SectionSums::SectionSums(const SectionGrid& grid, const Particles& p,
                          const ParticleValues& values, const RigidWall* pile)
     : grid_(grid), exact_(grid.size()), cells_(grid.size())
 {
-  const Revolution* shape = pile ? std::get_if<Revolution>(&pile->shape) : nullptr;
+  const RigidShape* shape = pile ? &pile->shape : nullptr;
   const Vec3 x = pile ? pile->x : Vec3::Zero();
   if (shape) pile_ = *shape;
   z_pile_ = x.z();

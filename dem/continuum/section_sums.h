@@ -119,7 +119,7 @@ private:
   void round_sums();
 
   SectionGrid grid_;
-  std::optional<Revolution> pile_;
+  std::optional<RigidShape> pile_;
   double z_pile_ = 0.0;                ///< of its lowest point [m]
   std::vector<ExactSectionSum> exact_; ///< by cell; empty once the ranks are added
   std::vector<SectionSum> cells_;

@@ -28,19 +28,20 @@ double finest_d_50(const Particles& p)
 std::vector<RingForce> ring_forces(const Assembly& assembly, const RigidWall& pile,
                                    double height, std::size_t n_rings)
 {
-  const double shoulder = std::get<Revolution>(pile.shape).tip_height();
+  const double shoulder = tip_height(pile.shape);
   const Eigen::Quaterniond to_pile = pile.rotation.conjugate();
   std::vector<VectorSum> sums(n_rings);
   for (const WallContact& c : pile.contacts) {
     if (c.overlap <= 0.0) continue;
-    const RigidContact at = read_contact(pile, c, assembly.particles);
-    const Vec3 point = to_pile * (at.point - pile.x), f = to_pile * at.f; // in its axes
-    const double h = point.z() - shoulder;
-    if (at.part != Revolution::shaft || h < 0.0) continue;
-    const auto ring = static_cast<std::size_t>(h / height);
-    if (ring >= n_rings) continue;
-    const Vec3 e_r = point.cwiseProduct(Vec3(1.0, 1.0, 0.0)).normalized();
-    sums[ring].add({f.dot(e_r), -f.dot(Vec3::UnitZ().cross(e_r)), -f.z()});
+    for (const RigidContact& at : read_contacts(pile, c, assembly.particles)) {
+      const Vec3 point = to_pile * (at.point - pile.x), f = to_pile * at.f; // in its axes
+      const double h = point.z() - shoulder;
+      if (at.part != Revolution::shaft || h < 0.0) continue;
+      const auto ring = static_cast<std::size_t>(h / height);
+      if (ring >= n_rings) continue;
+      const Vec3 e_r = point.cwiseProduct(Vec3(1.0, 1.0, 0.0)).normalized();
+      sums[ring].add({f.dot(e_r), -f.dot(Vec3::UnitZ().cross(e_r)), -f.z()});
+    }
   }
   ExactReduction reduction;
   reduction.add(sums);

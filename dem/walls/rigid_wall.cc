@@ -1,5 +1,7 @@
 #include "dem/walls/rigid_wall.h"
 
+#include "dem/walls/feature_forces.h"
+
 namespace mergel::dem {
 
 RigidWall make_rigid_wall(RigidShape shape, const Vec3& x, const ContactLaw& material)
@@ -100,29 +102,92 @@ double travel(const RigidWall& wall)
          wall.reach * wall.rotation.angularDistance(wall.rotation_listed);
 }
 
+const std::vector<PatchFeature>& FeaturesOfWall::find(const Vec3& x, double reach)
+{
+  found_ = features_.find(wall_.seen(x), reach);
+  for (PatchFeature& f : found_) {
+    f.point = wall_.placed(f.point);
+    f.n = wall_.rotation * f.n;
+  }
+  return found_;
+}
+
+namespace {
+
+void add_to_wall(RigidWall& wall, std::size_t part, const Vec3& point, const Vec3& force)
+{
+  wall.force[part].add(force);
+  wall.moment.add((point - wall.x).cross(force));
+}
+
+/// A shape whose closest point is the only contact of a particle.
+template <class Shape, IsContactLaw Law>
+void add_forces(RigidWall& wall, const Shape& upright, const Law& law, double dt,
+                Particles& p, PairLosses& losses)
+{
+  const Placed shape(upright, wall);
+  for (WallContact& c : wall.contacts) {
+    const ParticleState& particle = p.state[c.particle];
+    const bool is_open = c.overlap == 0.0 && c.f_s == Vec3::Zero();
+    if (is_open && shape.is_beyond(particle, activation_gap(law) * particle.S))
+      continue; // most candidates
+    const SurfacePoint closest =
+        with_particle_id(p.id[c.particle], [&] { return shape.closest_point(particle); });
+    const Vec3 f = -add_wall_contact(
+        law, {closest.n, closest.gap, closest.point, wall.velocity_at(closest.point)}, dt,
+        particle, p.load[c.particle], c, losses);
+    wall.force[closest.part].add(f);
+    if (c.overlap > 0.0) wall.moment.add((closest.point - wall.x).cross(f));
+  }
+}
+
+template <IsContactLaw Law>
+void add_forces(RigidWall& wall, const Polyhedron& polyhedron, const Law& law, double dt,
+                Particles& p, PairLosses& losses)
+{
+  const Placed shape(polyhedron, wall);
+  FeaturesOfWall features(wall);
+  std::vector<ActingFeature> acting;
+  for (WallContact& c : wall.contacts) {
+    const ParticleState& particle = p.state[c.particle];
+    const double g_a = activation_gap(law) * particle.S;
+    const bool is_open = c.overlap == 0.0 && c.f_s == Vec3::Zero();
+    if (is_open && shape.is_beyond(particle, g_a)) continue;
+    const std::vector<PatchFeature>& found =
+        with_particle_id(p.id[c.particle], [&]() -> const std::vector<PatchFeature>& {
+          return features.find(particle.x, particle.R + g_a);
+        });
+    Load& load = p.load[c.particle];
+    if (found.empty()) {
+      open_contact(law, particle.R, c, losses);
+    } else if (found.size() == 1 && found.front().sign == 1.0) {
+      const PatchFeature& only = found.front();
+      const Vec3 f = -add_wall_contact(
+          law,
+          {only.n, only.distance - particle.R, only.point, wall.velocity_at(only.point)},
+          dt, particle, load, c, losses);
+      add_to_wall(wall, polyhedron.part_at(wall.seen(only.point)), only.point, f);
+    } else {
+      acting.clear();
+      for (const PatchFeature& f : found) acting.push_back({&f, wall.velocity_at(f.point)});
+      add_feature_forces(law, acting, dt, particle, load, c, losses);
+      for (const ActingFeature& a : acting)
+        add_to_wall(wall, polyhedron.part_at(wall.seen(a.feature->point)), a.feature->point,
+                    -a.force);
+    }
+  }
+}
+
+} // namespace
+
 void add_wall_forces(RigidWall& wall, const PairMaterials&, double dt, Particles& p,
                      PairLosses& losses)
 {
   for (VectorSum& f : wall.force) f.clear();
   wall.moment.clear();
-  std::visit(
-      [&](const auto& upright, const auto& law) {
-        const Placed shape(upright, wall);
-        for (WallContact& c : wall.contacts) {
-          const ParticleState& particle = p.state[c.particle];
-          const bool is_open = c.overlap == 0.0 && c.f_s == Vec3::Zero();
-          if (is_open && shape.is_beyond(particle, activation_gap(law) * particle.S))
-            continue; // most candidates
-          const SurfacePoint closest = with_particle_id(
-              p.id[c.particle], [&] { return shape.closest_point(particle); });
-          const Vec3 f = -add_wall_contact(
-              law, {closest.n, closest.gap, closest.point, wall.velocity_at(closest.point)},
-              dt, particle, p.load[c.particle], c, losses);
-          wall.force[closest.part].add(f);
-          if (c.overlap > 0.0) wall.moment.add((closest.point - wall.x).cross(f));
-        }
-      },
-      wall.shape, wall.material);
+  std::visit([&](const auto& shape,
+                 const auto& law) { add_forces(wall, shape, law, dt, p, losses); },
+             wall.shape, wall.material);
 }
 
 EnergySum stored_energy(const RigidWall& wall, const Particles& p)

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "dem/walls/plane.h"
+#include "dem/walls/polyhedron.h"
 #include "dem/walls/revolution.h"
 
 #include <Eigen/Geometry>
@@ -31,8 +32,8 @@ concept IsRigidShape =
 };
 // clang-format on
 
-using RigidShape = std::variant<Plane, Revolution>;
-static_assert(IsRigidShape<Plane> && IsRigidShape<Revolution>);
+using RigidShape = std::variant<Plane, Revolution, Polyhedron>;
+static_assert(IsRigidShape<Plane> && IsRigidShape<Revolution> && IsRigidShape<Polyhedron>);
 
 /// The caller sets position, rotation and both velocities.
 struct RigidWall {
@@ -53,6 +54,11 @@ struct RigidWall {
 
   Vec3 resultant() const; ///< of the forces on all parts [N]
   bool is_rotated() const { return rotation.vec() != Vec3::Zero(); }
+  Vec3 seen(const Vec3& point) const { return rotation.conjugate() * (point - x); }
+  Vec3 placed(const Vec3& seen) const ///< where a point in the axes of the shape stands [m]
+  {
+    return x + rotation * seen;
+  }
   Vec3 velocity_at(const Vec3& point) const ///< of a point that moves with it [m/s]
   {
     if (omega == Vec3::Zero()) return v;
@@ -65,6 +71,24 @@ RigidWall make_rigid_wall(RigidShape shape, const Vec3& x, const ContactLaw& mat
 /// The point of the wall that is closest to the centre of the particle.
 /// @throws NumericalError for a centre inside the wall
 SurfacePoint closest_point(const RigidWall& wall, const ParticleState& b);
+
+/// Finds the features of a polyhedron that a particle of its wall touches.
+class FeaturesOfWall {
+public:
+  /// @pre the shape of the wall is a triangulated polyhedron; @param wall must outlive the object
+  explicit FeaturesOfWall(const RigidWall& wall)
+      : wall_(wall), features_(std::get<Polyhedron>(wall.shape))
+  {
+  }
+  /// Of all that lie within `reach` [m] of a centre x, where they stand.
+  /// @throws NumericalError for a centre inside the wall
+  const std::vector<PatchFeature>& find(const Vec3& x, double reach);
+
+private:
+  const RigidWall& wall_;
+  PolyhedronFeatures features_;
+  std::vector<PatchFeature> found_;
+};
 
 /// Find the candidates: particles whose gap to the wall is below (g_a + skin) S plus their
 /// extra reach (VerletList). They hold until a particle or the wall has moved by half of

@@ -208,7 +208,7 @@ TEST_CASE("An affine displacement has its gradient in the section", "[unit][dem]
 
 TEST_CASE("What the pile takes of a section is missing from its cells", "[unit][dem]")
 {
-  const Revolution pile = cone_ended(2.0, 3.0);
+  const RigidShape pile = cone_ended(2.0, 3.0);
   const Vec3 tip(0.0, 0.0, -7.0);
   const SectionGrid grid = make_section_grid(8.0, 12.0, 0.1, 0.5);
   double with = 0.0, without = 0.0;
