@@ -250,7 +250,9 @@ private:
   std::pair<dem::Table, std::string> read(const std::string& name) const
   {
     dem::Table table;
-    std::string wrong = with_name(name, lost_heading(folder_ / name, job_));
+    std::string wrong;
+    if (is_finished_ || has_line(folder_ / name))
+      wrong = with_name(name, lost_heading(folder_ / name, job_));
     if (wrong.empty()) wrong = fault([&] { table = dem::read_table(folder_ / name); });
     if (wrong.find("holds no record") != std::string::npos) wrong.clear();
     return {std::move(table), wrong};

@@ -48,6 +48,13 @@ std::vector<std::string> tables_of(const std::string& job)
   return tables;
 }
 
+bool has_line(const fs::path& table)
+{
+  std::ifstream in(table);
+  std::string line;
+  return std::getline(in, line) && !in.eof();
+}
+
 std::string lost_heading(const fs::path& table, const std::string& job)
 {
   if (dem::reading_error(table)) return "";
@@ -101,9 +108,10 @@ std::string lost_start(const dem::Table& history)
 
 std::string lost_end(const dem::Table& table, const fs::path& folder)
 {
+  if (table.n_rows == 0) return "is cut: it holds no record";
   if (table.is_last_line_cut) return "is cut: its last line is not whole";
   const dem::TableColumn& time = table.columns.front();
-  if (time.name != "time" || table.n_rows == 0) return "";
+  if (time.name != "time") return "";
   const double frame = last_frame(folder);
   if (time.values.back() >= (1.0 - round_off) * frame) return "";
   return "is cut: it ends at time " + dem::shortest(time.values.back()) +

@@ -13,6 +13,9 @@ namespace mergel::apps {
 /// sample and of an unknown job "".
 std::vector<std::string> tables_of(const std::string& job);
 
+/// Whether a table has a whole line: a run that was killed while it began may have written none.
+bool has_line(const std::filesystem::path& table);
+
 /// What a table that is there has lost at its head: "its heading is lost ..."; "" for nothing.
 /// One that cannot be read has lost nothing.
 /// @param job as of job_of(); with "" any first column that a job writes will do

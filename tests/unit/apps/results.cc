@@ -209,7 +209,9 @@ TEST_CASE("A table says what it has lost at its head and at its end", "[unit][ap
   }
   write(file, "time [s],q [");
   CHECK(lost_heading(file, "element") == "is cut in its heading");
+  CHECK_FALSE(has_line(file));
 
+  CHECK(lost_end({}, folder.path) == "is cut: it holds no record");
   CHECK(lost_end(read(whole), folder.path).empty());
   CHECK_THAT(lost_end(read(whole + "3e-3"), folder.path), Contains("last line"));
   write(folder.path / "particles.pvd",
