@@ -36,6 +36,10 @@ void BreakageCount::collect(const PileCase& c, dem::Assembly& assembly)
   assembly.losses.breakages.clear();
 }
 
+// Both kinds of pile have the same parts.
+static_assert(std::size_t{dem::Revolution::tip} == dem::Polyhedron::tip &&
+              std::size_t{dem::Revolution::shaft} == dem::Polyhedron::shaft);
+
 void MeanForce::add(const dem::RigidWall& pile, const coupling::DrivenPile& head_of_pile)
 {
   tip += pile.force[dem::Revolution::tip].z.value();
@@ -45,13 +49,21 @@ void MeanForce::add(const dem::RigidWall& pile, const coupling::DrivenPile& head
   ++n;
 }
 
+namespace {
+
+dem::RigidShape shape_of(const PileCase& c)
+{
+  if (c.surface.polyhedron) return *c.surface.polyhedron;
+  const double R = 0.5 * c.diameter;
+  return c.tip == PileCase::Tip::flat ? dem::flat_ended(R)
+                                      : dem::cone_ended(R, c.tip_height());
+}
+
+} // namespace
+
 dem::RigidWall make_pile(const PileCase& c)
 {
-  const double R = 0.5 * c.diameter;
-  dem::RigidWall pile = dem::make_rigid_wall(c.tip == PileCase::Tip::flat
-                                                 ? dem::flat_ended(R)
-                                                 : dem::cone_ended(R, c.tip_height()),
-                                             dem::Vec3::Zero(), c.contact);
+  dem::RigidWall pile = dem::make_rigid_wall(shape_of(c), dem::Vec3::Zero(), c.contact);
   pile.reach = c.assembly.height; // what it touches is in the DEM region
   return pile;
 }

@@ -26,7 +26,8 @@ public:
   Remarks unusual() const override { return apps::unusual(case_); }
   std::vector<std::filesystem::path> inputs() const override
   {
-    std::vector<std::filesystem::path> files{case_.assembly.sample, case_.assembly.table};
+    std::vector<std::filesystem::path> files{case_.assembly.sample, case_.assembly.table,
+                                             case_.surface.file};
     if (!case_.assembly.elasticity_from.empty())
       files.push_back(case_.assembly.elasticity_from / "summary.json");
     return files;
@@ -113,6 +114,7 @@ void PileJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
   std::cout << far_field.summary() << '\n'
             << report_on_impedance(case_.assembly) << report(case_.assembly, sample)
             << '\n';
+  if (case_.surface.polyhedron) std::cout << apps::report(case_.surface);
   apply_surcharge(case_.assembly, sample.packing.particles);
   coupled_.emplace(coupled_spec(case_.assembly),
                    structures(case_.assembly, std::move(far_field)),

@@ -9,6 +9,7 @@ namespace mergel::apps {
 
 double PileCase::tip_height() const
 {
+  if (surface.polyhedron) return surface.polyhedron->tip_height;
   return tip == Tip::flat ? 0.0 : 0.5 * diameter / std::tan(0.5 * cone_angle);
 }
 
@@ -117,6 +118,44 @@ void complete_head(CaseFile& file, PileCase& c)
   }
 }
 
+/// Share of the diameter by which a polyhedron may differ from its mirror image: the sagitta of a
+/// circle of 32 facets.
+constexpr double symmetry_tolerance = 2.5e-3;
+
+std::string mm(double x)
+{
+  return dem::rounded(1e3 * x) + " mm";
+}
+
+/// Whether the polyhedron fits the model.
+void check_surface(const CaseFile& file, const PileCase& c)
+{
+  const dem::Polyhedron& polyhedron = *c.surface.polyhedron;
+  if (2.0 * polyhedron.R_outside >= c.assembly.diameter)
+    file.refuse("Pile", "surface",
+                "the pile is wider than the DEM region: it reaches " +
+                    mm(polyhedron.R_outside) +
+                    " from its axis, must be below half of `Specimen/diameter`, " +
+                    mm(0.5 * c.assembly.diameter) + "; is `surface unit` right?");
+  if (!c.assembly.is_half()) return;
+  try {
+    dem::require_symmetric(polyhedron, symmetry_tolerance * c.diameter);
+  } catch (const InputError& e) {
+    file.refuse("Pile", "surface", std::string(e.what()) + ", `Specimen/shape = cylinder`");
+  }
+}
+
+/// The surface of the rock must not close above the pile.
+void check_length(const CaseFile& file, const PileCase& c)
+{
+  const double deepest = c.deepest() + c.tip_height();
+  if (c.surface.polyhedron->length >= deepest) return;
+  file.refuse("Pile", "surface",
+              "the pile is " + mm(c.surface.polyhedron->length) +
+                  " long, and its tip goes down to " + mm(deepest) +
+                  ": it would be covered. Make it longer, or the stages shallower");
+}
+
 } // namespace
 
 void declare(CaseFile& file, PileCase& c)
@@ -124,16 +163,23 @@ void declare(CaseFile& file, PileCase& c)
   declare(file, c.assembly);
   {
     const auto section = file.section("Pile");
-    file.quantity("diameter", c.diameter, "m", positive, "Diameter of the shaft.", "mm");
-    file.choice("tip", c.tip,
-                std::vector<std::pair<std::string, PileCase::Tip>>{
-                    {"cone", PileCase::Tip::cone}, {"flat", PileCase::Tip::flat}},
-                "Shape of the lower end.");
+    file.choice(
+        "tip", c.tip,
+        std::vector<std::pair<std::string, PileCase::Tip>>{
+            {"cone", PileCase::Tip::cone},
+            {"flat", PileCase::Tip::flat},
+            {"surface", PileCase::Tip::surface}},
+        "Lower end of a round pile; or surface: a pile of any shape, read from a file.");
+    {
+      const auto only = file.only_if("tip", {"cone", "flat"});
+      file.quantity("diameter", c.diameter, "m", positive, "Diameter of the shaft.", "mm");
+    }
     {
       const auto only = file.only_if("tip", {"cone"});
       file.quantity("cone angle", c.cone_angle, "rad", inside(0.0, dem::pi),
                     "Full angle at the tip.", "degree");
     }
+    declare(file, c.surface);
     file.former_name("velocity", "penetration rate");
     file.quantity("penetration rate", c.velocity, "m/s", positive,
                   "Downwards, after a ramp of 0.05 diameters.");
@@ -172,14 +218,18 @@ void declare(CaseFile& file, PileCase& c)
 void complete(CaseFile& file, PileCase& c)
 {
   complete(file, c.assembly);
-  const auto mm = [](double x) { return dem::rounded(1e3 * x) + " mm"; };
-  if (c.diameter >= c.assembly.diameter)
+  if (c.tip == PileCase::Tip::surface) {
+    complete_surface(file, c.surface);
+    c.diameter = 2.0 * c.surface.polyhedron->R();
+    check_surface(file, c);
+  } else if (c.diameter >= c.assembly.diameter)
     file.refuse(
         "Pile", "diameter",
         "the pile is wider than the DEM region: must be below `Specimen/diameter`, " +
             mm(c.assembly.diameter) +
             "; bonds break up to some two diameters from the axis");
   complete_stages(file, c);
+  if (c.surface.polyhedron) check_length(file, c);
   complete_head(file, c);
   complete(file, c.checkpoints);
   file.derive("Pile", "contact modulus",

@@ -3,6 +3,7 @@
 
 #include "apps/case/coupled_case.h"
 #include "apps/pile/pile_stages.h"
+#include "apps/pile/pile_surface.h"
 #include "apps/run/checkpoint_scheduler.h"
 #include "coupling/driven_pile.h"
 
@@ -14,9 +15,10 @@ struct PileCase {
   CoupledCase assembly;
 
   // Pile
-  enum class Tip { cone, flat } tip = Tip::cone;
-  double diameter = unset;    ///< [m]
-  double cone_angle = unset;  ///< full angle at the tip [rad]; unset for a flat tip
+  enum class Tip { cone, flat, surface } tip = Tip::cone;
+  double diameter = unset;    ///< [m]; of a surface, of the circle of its largest section
+  double cone_angle = unset;  ///< full angle at the tip [rad]; unset without a cone
+  PileSurface surface;        ///< with a polyhedron where `tip = surface`
   double velocity = unset;    ///< downwards [m/s]
   double final_depth = unset; ///< of the shoulder below the surface [m]; unset with stages
   double mass = unset;        ///< of the full pile [kg]; unset without stages

@@ -4,6 +4,7 @@
 #include "dem/continuum/shaft_profile.h"
 #include "dem/error.h"
 #include "dem/io/atomic_file.h"
+#include "dem/io/polyhedron_surface.h"
 #include "dem/version.h"
 
 #include <cstdio>
@@ -65,6 +66,25 @@ const std::vector<Frames::Kind> kinds{{"particles", "vtp"}, {"bonds", "vtp"},
 constexpr const char* last_positions = "output_x_last";
 constexpr double height_over_surface = 0.5; // of the continuum fields, in diameters
 constexpr double layer = 0.5; // thickness of the coloured layers, in diameters
+
+void write_half(const std::filesystem::path& file, const dem::RigidWall& pile, double z_top)
+{
+  if (const auto* polyhedron = std::get_if<dem::Polyhedron>(&pile.shape))
+    dem::write_half_polyhedron(file, *polyhedron, pile.x, pile.rotation, z_top);
+  else
+    dem::write_half_revolution(file, std::get<dem::Revolution>(pile.shape), pile.x,
+                               pile.rotation, z_top);
+}
+
+void write_whole(const std::filesystem::path& file, const dem::RigidWall& pile,
+                 double z_top)
+{
+  if (const auto* polyhedron = std::get_if<dem::Polyhedron>(&pile.shape))
+    dem::write_polyhedron(file, *polyhedron, pile.x, pile.rotation, z_top);
+  else
+    dem::write_revolution(file, std::get<dem::Revolution>(pile.shape), pile.x,
+                          pile.rotation, z_top);
+}
 
 dem::HistoryMark mark_in(const dem::State& state)
 {
@@ -169,10 +189,8 @@ void PileOutput::write_fields(const PileContinuum& continuum,
 {
   const dem::Assembly& assembly = coupled.assembly;
   const dem::RigidWall& pile = assembly.rigid_walls.front();
-  const auto write_pile =
-      assembly.mirrors.empty() ? dem::write_revolution : dem::write_half_revolution;
-  write_pile(frames_.file(2), std::get<dem::Revolution>(pile.shape), pile.x, pile.rotation,
-             2.0 * case_.diameter);
+  const auto write_pile = assembly.mirrors.empty() ? write_whole : write_half;
+  write_pile(frames_.file(2), pile, 2.0 * case_.diameter);
   dem::replace_file(frames_.file(3), [&](const std::filesystem::path& path) {
     far_field_of(coupled).write_vtu(path, dem::program_text());
   });

@@ -25,22 +25,23 @@ namespace {
 /// The pile read as a needle penetration test (Ngan-Tillard et al. 2011): head force over
 /// penetration, in proportion to the area of the standard needle of 0.84 mm, and the UCS of its
 /// usual correlation, 0.40 NPI^0.93 [MPa, N/mm]. These constants are from memory.
-void add_needle_index(Summary& s, const PileRecord& r, const dem::RigidWall& pile)
+void add_needle_index(Summary& s, const PileRecord& r, double diameter)
 {
   if (!(r.F_head > 0.0 && r.tip_depth > 0.0)) return;
-  const double share = 0.84e-3 / (2.0 * std::get<dem::Revolution>(pile.shape).R());
+  const double share = 0.84e-3 / diameter;
   const double index = 1e-3 * r.F_head / r.tip_depth * share * share;
   s.number("needle penetration index [N/mm]", index);
   s.number("UCS by the needle penetration index, from memory [Pa]",
            0.4e6 * std::pow(index, 0.93));
 }
 
-void add_figures(Summary& s, const Installation& run,
+void add_figures(Summary& s, const PileCase& c, const Installation& run,
                  const coupling::CoupledSystem& coupled, std::size_t n_debris,
                  double seconds)
 {
   const PileRecord& r = run.last();
   const BreakageCount& broken = run.breakage();
+  s.number("D_p [m]", c.diameter);
   s.number("depth [m]", r.depth);
   s.number("tip depth [m]", r.tip_depth);
   s.count("pushes [-]", run.n_pushes());
@@ -51,7 +52,7 @@ void add_figures(Summary& s, const Installation& run,
   s.count("stages done [-]", run.position().n_done);
   s.count("stages that ended at the bearing capacity [-]", run.n_at_capacity());
   s.number("head force of the full pile [N]", r.F_head);
-  add_needle_index(s, r, coupled.assembly.rigid_walls.front());
+  add_needle_index(s, r, c.diameter);
   s.number("lateral head force of the full pile [N]", r.F_lateral);
   s.number("lateral displacement of the head [m]", r.displacement);
   s.number("rotation of the head [rad]", r.rotation);
@@ -132,7 +133,7 @@ void summarise(Summary& summary, const PileCase& c, const Installation& run,
                const coupling::CoupledSystem& coupled, const Work& work)
 {
   const std::size_t n_debris = count_debris(coupled.assembly, c.assembly.collar_height);
-  add_figures(summary, run, coupled, n_debris, work.seconds);
+  add_figures(summary, c, run, coupled, n_debris, work.seconds);
   const PileRecord& r = run.last();
   const BreakageCount& broken = run.breakage();
   const auto percent = [](std::size_t part, std::size_t whole) {
