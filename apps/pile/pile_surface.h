@@ -1,7 +1,7 @@
 /// A pile whose surface is read from a file.
 #pragma once
 
-#include "apps/case/case_file.h"
+#include "apps/case/material_keys.h"
 #include "dem/walls/polyhedron.h"
 
 #include <filesystem>
