@@ -146,14 +146,19 @@ std::vector<DeformationFit> local_deformations(const std::vector<Vec3>& X,
   return local_deformations(X, at(x, R), cell_0, cell);
 }
 
-std::vector<Mat3> velocity_gradients(const Particles& p, const PeriodicCell& cell)
+std::vector<Pair> held_neighbours(const Particles& p, const PeriodicCell& cell)
+{
+  return holds_neighbourhoods(cell, p) ? neighbours(p, cell) : std::vector<Pair>{};
+}
+
+std::vector<Mat3> velocity_gradients(const Particles& p, const PeriodicCell& cell,
+                                     const std::vector<Pair>& pairs)
 {
   const Mat3 of_cell = cell.rate.asDiagonal();
   std::vector<Mat3> all(p.n_owned(), of_cell);
-  if (!holds_neighbourhoods(cell, p)) return all;
   const std::vector<Index> rows = owned_rows(p);
   std::vector<Moments> moments(p.n_owned());
-  for (const Pair& q : neighbours(p, cell)) {
+  for (const Pair& q : pairs) {
     const ParticleState &i = p.state[q.i], &j = p.state[q.j];
     const Vec3 D = j.x + cell.offset(q.shift) - i.x, d = j.v - i.v;
     for (const Index k : {q.i, q.j})
@@ -172,7 +177,7 @@ std::vector<Mat3> velocity_gradients(const std::vector<Vec3>& x, const std::vect
                            "number");
   Particles p = at(x, R);
   for (std::size_t i = 0; i < v.size(); ++i) p.state[i].v = v[i];
-  return velocity_gradients(p, cell);
+  return velocity_gradients(p, cell, held_neighbours(p, cell));
 }
 
 DeformationFit deformation_of(const std::vector<Vec3>& X, const std::vector<Vec3>& x,

@@ -72,10 +72,6 @@ std::vector<Mat3> velocity_gradients(const std::vector<Vec3>& x, const std::vect
                                      const std::vector<double>& R,
                                      const PeriodicCell& cell = {});
 
-/// The same of the owned particles, in their order; positions and velocities of all particles
-/// are up to date.
-std::vector<Mat3> velocity_gradients(const Particles& p, const PeriodicCell& cell = {});
-
 /// Fit of the particles `indices` about their centroid. No periodic images: the positions
 /// are taken as they are.
 /// @param X, x reference and present positions of all particles [m]

@@ -22,4 +22,13 @@ std::vector<Pair> neighbours(const Particles& p, const PeriodicCell& cell = {},
 /// neighbourhood of its largest particle a particle would have neighbours twice, or itself.
 bool holds_neighbourhoods(const PeriodicCell& cell, const Particles& p);
 
+/// neighbours() where the cell holds neighbourhoods, else none.
+std::vector<Pair> held_neighbours(const Particles& p, const PeriodicCell& cell = {});
+
+/// Velocity gradients (local_strain.h) of the owned particles, in their order; the velocities of
+/// all particles are up to date.
+/// @param pairs of held_neighbours()
+std::vector<Mat3> velocity_gradients(const Particles& p, const PeriodicCell& cell,
+                                     const std::vector<Pair>& pairs);
+
 } // namespace mergel::dem

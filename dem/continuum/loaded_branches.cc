@@ -1,6 +1,7 @@
 #include "dem/continuum/loaded_branches.h"
 
 #include "dem/assembly/branches.h"
+#include "dem/parallel/merge_runs.h"
 #include "dem/parallel/rows.h"
 #include "dem/walls/wall_readings.h"
 
@@ -74,12 +75,11 @@ std::vector<LoadedBranch> gather_loads(const Assembly& assembly,
   for (const LoadedBranch& b : mine)
     if (assembly.particles.owns(b.i) && b.F != Vec3::Zero()) loaded.push_back(b);
   std::vector<LoadedBranch> all = assembly.comm.gather_on(to, loaded);
-  const auto key = [](const LoadedBranch& b) {
-    return std::tuple(b.end, !b.is_bonded, b.i, b.j, b.shift);
-  };
   // Those of one particle at one kind of wall come from one rank, and keep their order.
-  std::stable_sort(all.begin(), all.end(),
-                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  merge_runs(all, [](const LoadedBranch& a, const LoadedBranch& b) {
+    return std::tuple(a.end, !a.is_bonded, a.i, a.j, a.shift) <
+           std::tuple(b.end, !b.is_bonded, b.i, b.j, b.shift);
+  });
   return all;
 }
 

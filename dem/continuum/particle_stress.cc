@@ -53,12 +53,11 @@ std::vector<Share> shares_of(const Particles& p, const std::vector<LoadedBranch>
 
 std::vector<Mat3> neighbourhood_stresses(const Assembly& assembly,
                                          const std::vector<LoadedBranch>& branches,
-                                         const std::vector<double>& porosity)
+                                         const std::vector<double>& porosity,
+                                         const std::vector<Pair>& pairs)
 {
   const Particles& p = assembly.particles;
-  const PeriodicCell& cell = assembly.cell;
-  const bool is_narrow = !holds_neighbourhoods(cell, p);
-  const std::vector<Pair> pairs = is_narrow ? std::vector<Pair>{} : neighbours(p, cell);
+  const bool is_narrow = !holds_neighbourhoods(assembly.cell, p);
   std::vector<char> is_wanted(p.size(), is_narrow);
   for (const Pair& q : pairs) is_wanted[q.i] = is_wanted[q.j] = 1;
   std::vector<Index> remote;

@@ -15,9 +15,11 @@ namespace mergel::dem {
 /// the cell. The positions of all particles are up to date. Collective.
 /// @param branches of loaded_branches()
 /// @param porosity n of the rock around each owned particle [-], below 1
+/// @param pairs of held_neighbours() (neighbourhood.h)
 std::vector<Mat3> neighbourhood_stresses(const Assembly& assembly,
                                          const std::vector<LoadedBranch>& branches,
-                                         const std::vector<double>& porosity);
+                                         const std::vector<double>& porosity,
+                                         const std::vector<Pair>& pairs);
 
 /// The porosity of a specimen as that around each owned particle [-].
 /// @param volume of the specimen [m^3], above 0

@@ -1,8 +1,8 @@
 #include "dem/io/assembly_fields.h"
 
+#include "dem/parallel/merge_runs.h"
 #include "dem/parallel/rows.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace mergel::dem {
@@ -96,8 +96,7 @@ std::vector<BondLine> gather_bonds(const Assembly& assembly, int to)
           {assembly.bonds.pairs[b],
            read_bond(assembly.bonds, b, p, assembly.cell, assembly.material.bond)});
   std::vector<BondLine> all = assembly.comm.gather_on(to, mine);
-  std::sort(all.begin(), all.end(),
-            [](const BondLine& a, const BondLine& b) { return a.pair < b.pair; });
+  merge_runs(all, [](const BondLine& a, const BondLine& b) { return a.pair < b.pair; });
   return all;
 }
 

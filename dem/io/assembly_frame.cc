@@ -1,5 +1,6 @@
 #include "dem/io/assembly_frame.h"
 
+#include "dem/assembly/neighbourhood.h"
 #include "dem/continuum/particle_stress.h"
 #include "dem/io/continuum_fields.h"
 #include "dem/parallel/rows.h"
@@ -8,17 +9,6 @@
 
 namespace mergel::dem {
 
-namespace {
-
-std::vector<Mat3> strain_rates(const Assembly& assembly)
-{
-  std::vector<Mat3> D = velocity_gradients(assembly.particles, assembly.cell);
-  for (Mat3& L : D) L = (0.5 * (L + L.transpose())).eval();
-  return D;
-}
-
-} // namespace
-
 FrameFiles::FrameFiles(AssemblyFrame frame)
     : assembly_(frame.assembly), bonds_on_(std::min(1, assembly_.comm.n_ranks() - 1)),
       contacts_on_(std::min(2, assembly_.comm.n_ranks() - 1)),
@@ -26,11 +16,15 @@ FrameFiles::FrameFiles(AssemblyFrame frame)
       bonds_(gather_bonds(assembly_, bonds_on_)),
       contacts_(gather_loads(assembly_, frame.branches, contacts_on_))
 {
-  particles_.push_back(tensor_field(
-      "stress [Pa]", neighbourhood_stresses(assembly_, frame.branches, frame.porosity)));
-  particles_.push_back(tensor_field("strain rate [1/s]", strain_rates(assembly_)));
+  const Particles& p = assembly_.particles;
+  const std::vector<Pair> pairs = held_neighbours(p, assembly_.cell);
   particles_.push_back(
-      {"coordination [-]", 1, coordination(assembly_.particles, frame.branches)});
+      tensor_field("stress [Pa]", neighbourhood_stresses(assembly_, frame.branches,
+                                                         frame.porosity, pairs)));
+  std::vector<Mat3> rates = velocity_gradients(p, assembly_.cell, pairs);
+  for (Mat3& L : rates) L = (0.5 * (L + L.transpose())).eval();
+  particles_.push_back(tensor_field("strain rate [1/s]", rates));
+  particles_.push_back({"coordination [-]", 1, coordination(p, frame.branches)});
   for (Field& field : frame.more) particles_.push_back(std::move(field));
   for (Field& field : particles_)
     field.values = gather_rows(assembly_.comm, assembly_.partition, std::move(field.values),

@@ -1,3 +1,4 @@
+#include "dem/assembly/neighbourhood.h"
 #include "dem/continuum/particle_stress.h"
 #include "tests/support/catch.h"
 #include "tests/support/strain_controlled_assembly.h"
@@ -252,7 +253,8 @@ TEST_CASE("A rebuild of the lists changes no bit in a strained cell", "[verifica
 std::vector<Mat3> stresses_around_particles(const Assembly& a)
 {
   return neighbourhood_stresses(a, loaded_branches(a),
-                                even_porosity(a.particles, a.cell.volume()));
+                                even_porosity(a.particles, a.cell.volume()),
+                                held_neighbours(a.particles, a.cell));
 }
 
 TEST_CASE("Around each particle of a crystal is the stress of its cell",

@@ -1,3 +1,4 @@
+#include "dem/assembly/neighbourhood.h"
 #include "dem/continuum/particle_stress.h"
 #include "dem/continuum/section_sums.h"
 #include "dem/continuum/shaft_profile.h"
@@ -5,6 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -106,7 +108,8 @@ TEST_CASE("Every inner particle of a crystal under pressure has its stress", "[u
   const auto branches = loaded_branches(assembly);
   const auto n = coordination(p, branches);
   const std::vector<double> porosity(p.size(), 1.0 - pi / 6.0);
-  const auto stress = neighbourhood_stresses(assembly, branches, porosity);
+  const auto stress =
+      neighbourhood_stresses(assembly, branches, porosity, held_neighbours(p));
   std::size_t n_inner = 0;
   for (Index i = 0; i < p.size(); ++i) {
     const Vec3& x = p.state[i].x;
@@ -179,6 +182,24 @@ TEST_CASE("The cells of a section have all forces and all solid between them",
                          (height_of_crystal * a + sums.grid().n_z * sums.grid().h +
                           sums.grid().z_low))
                       .epsilon(0.01));
+}
+
+TEST_CASE("The sums over a section have the same bits in any order of the branches",
+          "[unit][dem]")
+{
+  const Assembly assembly = crystal();
+  auto branches = loaded_branches(assembly);
+  const ParticleValues values = at_rest(assembly.particles.size());
+  const SectionSums there(grid_of_crystal(), assembly.particles, branches, values, nullptr);
+  std::reverse(branches.begin(), branches.end());
+  SectionSums back(grid_of_crystal(), assembly.particles, branches, values, nullptr);
+  back.add_ranks(assembly.comm); // a single one
+  for (int row = 0; row < there.grid().n_z; ++row)
+    for (int column = 0; column < there.grid().n_columns(); ++column) {
+      REQUIRE((there.cell(column, row).virial == back.cell(column, row).virial));
+      REQUIRE(there.cell(column, row).solid == back.cell(column, row).solid);
+      REQUIRE(there.cell(column, row).largest_R == back.cell(column, row).largest_R);
+    }
 }
 
 TEST_CASE("An affine displacement has its gradient in the section", "[unit][dem]")

@@ -1,4 +1,5 @@
 #include "dem/assembly/local_strain.h"
+#include "dem/assembly/neighbourhood.h"
 #include "dem/io/assembly_fields.h"
 #include "tests/support/catch.h"
 #include "tests/support/dem_scene.h"
@@ -254,14 +255,14 @@ TEST_CASE(
     all.state.back().v = random_vector(random);
   }
   const auto fits = local_deformations(X, all);
-  const auto gradients = velocity_gradients(all);
+  const auto gradients = velocity_gradients(all, {}, held_neighbours(all));
   REQUIRE(fits.size() == X.size());
   Particles half = all;
   std::vector<char> is_owned(X.size(), 0);
   for (Index i = 0; i < X.size(); ++i) is_owned[i] = X[i].x() < 5.0 * R && i % 5 != 2;
   half.set_ownership(is_owned, std::vector<char>(X.size(), 0));
   const auto fits_of_half = local_deformations(X, half);
-  const auto gradients_of_half = velocity_gradients(half);
+  const auto gradients_of_half = velocity_gradients(half, {}, held_neighbours(half));
   REQUIRE(fits_of_half.size() == half.n_owned());
   REQUIRE(gradients_of_half.size() == half.n_owned());
   std::size_t k = 0;
