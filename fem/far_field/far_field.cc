@@ -238,7 +238,7 @@ void FarField::solve_static(std::span<const Eigen::Vector3d> f_interface)
   NodalField f = s.f_gravity - s.f_initial;
   for (std::size_t k = 0; k < std::min(f_interface.size(), parts_->nodes.size()); ++k)
     f.col(parts_->nodes[k]).head<3>() += f_interface[k].array();
-  parts_->motion->rest_at(fem::solve_static(s, f).u, f_interface);
+  parts_->motion->rest_at(fem::solve_static(s, parts_->product, f).u, f_interface);
 }
 
 void FarField::step(double dt, std::span<const Eigen::Vector3d> f_interface)

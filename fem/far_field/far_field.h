@@ -88,8 +88,8 @@ public:
   std::vector<Eigen::Vector3d> initial_interface_forces() const;
 
   /// Static equilibrium under forces [N] on the interface nodes: sets u, and v = 0; the
-  /// work sums start from zero. Throws std::runtime_error when the solver does not
-  /// converge.
+  /// work sums start from zero. Collective. Throws std::runtime_error when the solver does
+  /// not converge.
   void solve_static(std::span<const Eigen::Vector3d> f_interface);
 
   /// One leapfrog step: kick with the forces [N] on the interface nodes at the present u =

@@ -8,6 +8,7 @@
 #include <deal.II/grid/grid_generator.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
 
 namespace mergel::fem::test {
 
@@ -58,6 +59,27 @@ NodalField sample(const ElasticSolid& solid, G&& g)
       NodalField::Zero(4, static_cast<Eigen::Index>(solid.discrete().n_nodes()));
   for (std::size_t a = 0; a < solid.discrete().n_nodes(); ++a)
     field.col(static_cast<Eigen::Index>(a)).head<3>() = g(solid.discrete().x[a]).array();
+  return field;
+}
+
+/// K^-1 f by Cholesky factors: another way to a static solution.
+/// @param f in the supports
+inline NodalField solve_directly(const BlockMatrix& K, const NodalField& f)
+{
+  const auto n = static_cast<int>(3 * K.n_rows());
+  std::vector<Eigen::Triplet<double>> upper;
+  K.for_each([&](std::uint32_t i, std::uint32_t j, const Mat3& B) {
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        upper.emplace_back(static_cast<int>(3 * i) + r, static_cast<int>(3 * j) + c,
+                           B(r, c));
+  });
+  Eigen::SparseMatrix<double> A(n, n);
+  A.setFromTriplets(upper.begin(), upper.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Upper> factors(A);
+  const Eigen::MatrixXd u = factors.solve(f.topRows<3>().matrix().reshaped());
+  NodalField field = NodalField::Zero(4, f.cols());
+  field.topRows<3>() = u.reshaped(3, f.cols()).array();
   return field;
 }
 
