@@ -156,8 +156,8 @@ TEST_CASE("a surface that cannot be a pile is refused with what is wrong and a r
   CHECK_THAT(project.refusal({"Pile/surface unit=s"}), Contains("Pile/surface unit = s"));
   CHECK_THAT(project.refusal({"Pile/diameter=1.4 mm"}),
              Contains("Pile/diameter = 1.4 mm: is a key of `tip` = "));
-  CHECK_THAT(project.refusal({"Pile/tip height=9 mm"}),
-             Contains("--set Pile/tip height = 9 mm: the pile is 9 mm long"));
+  CHECK_THAT(project.refusal({"Pile/tip height=10 mm"}),
+             Contains("--set Pile/tip height = 10 mm: the pile is 9 mm long"));
   CHECK_THAT(project.refusal({"Pile/final depth=8 mm"}),
              Contains("Pile/surface = ") &&
                  Contains("it would be covered. Make it longer"));
