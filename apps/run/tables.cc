@@ -100,9 +100,17 @@ std::string lost_start(const dem::Table& history)
                     [](const dem::TableColumn& motion) { return motion.values[0] == 0.0; });
     return is_start ? "" : tell(first);
   }
-  // The first record is that of the start, or of the first step (a pile).
-  if (c[0].name != "time" || history.n_rows < 2 || first <= 0.5 * (c[0].values[1] - first))
-    return "";
+  if (c[0].name != "time") return "";
+  // The first record is that of the start. A pile settles before it, and has its first one when it
+  // has come from the surface as far as from the first to the second.
+  const auto tip = std::find_if(c.begin(), c.end(), [](const dem::TableColumn& one) {
+    return one.name == "tip depth";
+  });
+  const bool is_pile = tip != c.end();
+  if (history.n_rows < (is_pile ? 3 : 2))
+    return ""; // the last one comes at the end of the run
+  const std::vector<double>& from = is_pile ? tip->values : c[0].values;
+  if (from[0] <= (is_pile ? 1.5 : 0.5) * (from[1] - from[0])) return "";
   return tell(first);
 }
 

@@ -192,7 +192,11 @@ TEST_CASE("A table says what it has lost at its head and at its end", "[unit][ap
   const std::string whole = heading + "0,0\n1e-3,1\n2e-3,2\n";
   CHECK(lost_start(read(whole)).empty());
   CHECK(lost_heading(file, "element").empty());
-  CHECK(lost_start(read(heading + "1e-6,0\n1e-3,1\n")).empty()); // a pile: its first step
+  CHECK(lost_start(read(heading + "1e-6,0\n1e-3,1\n")).empty());
+  const std::string pile = "time [s],tip depth [m]\n"; // it has settled for some time
+  CHECK(lost_start(read(pile + "4e-5,1e-5\n5e-5,2e-5\n6e-5,3e-5\n")).empty());
+  CHECK_THAT(lost_start(read(pile + "5e-5,2e-5\n6e-5,3e-5\n7e-5,4e-5\n")),
+             Contains("begins late, at time 5e-05 s"));
   CHECK_THAT(lost_start(read(heading + "1e-3,1\n2e-3,2\n")),
              Contains("begins late, at time 0.001 s"));
   CHECK(lost_start(
