@@ -8,20 +8,11 @@
 #include "dem/text.h"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 namespace mergel::apps {
 
 namespace {
-
-std::string bytes_of(const std::filesystem::path& file)
-{
-  dem::require_readable(file);
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Three numbers. @throws InputError when there are more or fewer
 template <class Number>
@@ -157,7 +148,10 @@ dem::ClosedSurface known_surface(const CaseFile& file, const PileSurface& s)
 /// From the file. Sets sum and content.
 dem::ClosedSurface new_surface(const CaseFile& file, PileSurface& s)
 {
-  const std::string bytes = or_refuse(file, "surface", [&] { return bytes_of(s.file); });
+  const std::string bytes = or_refuse(file, "surface", [&] {
+    dem::require_readable(s.file);
+    return dem::bytes_of(s.file);
+  });
   const std::string sum = dem::hexadecimal(dem::fnv_1a(bytes));
   if (!s.sum.empty() && s.sum != sum)
     file.refuse("Pile", "surface sum",

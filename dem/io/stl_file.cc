@@ -1,15 +1,12 @@
 #include "dem/io/stl_file.h"
 
 #include "dem/error.h"
-#include "dem/io/readable.h"
 
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 namespace mergel::dem {
@@ -173,14 +170,6 @@ std::vector<StlTriangle> stl_from(std::string_view bytes, const std::string& nam
   std::vector<StlTriangle> triangles = from_ascii(bytes, name);
   require(!triangles.empty(), name + ": has no triangles" + again);
   return triangles;
-}
-
-std::vector<StlTriangle> read_stl(const std::filesystem::path& file)
-{
-  require_readable(file);
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  return stl_from(bytes, file.string());
 }
 
 } // namespace mergel::dem

@@ -2,6 +2,7 @@
 #include "tests/support/polyhedra.h"
 
 #include "dem/error.h"
+#include "dem/io/readable.h"
 #include "dem/io/stl_file.h"
 
 #include <cstring>
@@ -149,5 +150,6 @@ TEST_CASE("bytes of an STL file that are changed at random give triangles or one
 
 TEST_CASE("an STL file that is not there is named with the reason", "[unit][dem]")
 {
-  CHECK_THROWS_WITH(read_stl("/none/pile.stl"), Contains("/none/pile.stl: cannot be read"));
+  CHECK_THROWS_WITH(require_readable("/none/pile.stl"),
+                    Contains("/none/pile.stl: cannot be read"));
 }
