@@ -21,3 +21,14 @@ records() {
     function abs(x) { return x < 0 ? -x : x }
     NR == 1 { for (k = 1; k <= NF; ++k) at[$k] = k; next } '"$2" "$1/history.csv"
 }
+
+# FOLDER OTHER...: the others have the same bytes in all its tables and fields
+same_results() {
+  local whole=$1 file other
+  shift
+  for other; do
+    for file in "$whole"/*.csv "$whole"/fields/*; do
+      cmp "$file" "$other/${file#"$whole"/}" || fail "$other/${file#"$whole"/} differs"
+    done
+  done
+}
