@@ -5,6 +5,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <stdexcept>
 #include <string>

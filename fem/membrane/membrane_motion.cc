@@ -3,6 +3,7 @@
 #include "fem/node_lanes.h"
 
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace mergel::fem {

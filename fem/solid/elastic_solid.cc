@@ -10,6 +10,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <string>
 
 namespace mergel::fem {
 namespace {

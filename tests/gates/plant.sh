@@ -96,6 +96,8 @@ printf '#include "dem/walls/mirror.h"\n' >dem/pairs/planted.h
 fault "a lower floor includes a higher one" 'dem/pairs/planted\.h'
 printf '#include "dem/io/state/checkpoint.h"\n' >dem/io/planted.h
 fault "folders in a circle" 'dem/io/planted\.h'
+printf 'std::vector<int> planted();\n' >dem/planted.h
+fault "a name without its header" 'dem/planted\.h: names std::vector without #include <vector>'
 
 gate words tests/gates/words.sh
 printf '// The legs of a test.\n' >dem/planted.h

@@ -1,6 +1,8 @@
 /// The names of Catch2 that the tests use, the same for version 2 (Debian 12) and 3 (Debian 13).
 #pragma once
 #if __has_include(<catch2/catch_test_macros.hpp>) // version 3
+#include <string>
+
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_session.hpp>
 #include <catch2/catch_test_macros.hpp>

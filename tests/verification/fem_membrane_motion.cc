@@ -2,6 +2,7 @@
 #include "fem/membrane/membrane_motion.h"
 #include "tests/support/membranes.h"
 
+#include <algorithm>
 #include <memory>
 #include <numbers>
 

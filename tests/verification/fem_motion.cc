@@ -7,6 +7,7 @@
 #include "fem/solid/leapfrog.h"
 #include "fem/solver/linear_solver.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>

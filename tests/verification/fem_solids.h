@@ -1,6 +1,8 @@
 /// Small solids with closed-form answers, for the tests of fem/.
 #pragma once
 
+#include <array>
+
 #include "fem/solid/elastic_solid.h"
 
 #include <deal.II/base/quadrature_lib.h>

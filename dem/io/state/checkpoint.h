@@ -2,6 +2,8 @@
 /// restart).
 #pragma once
 
+#include <cstdint>
+
 #include "dem/io/state/state_file.h"
 
 namespace mergel::dem {

@@ -9,6 +9,7 @@
 #include "dem/collective_failure.h"
 #include "dem/parallel/communicator.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>

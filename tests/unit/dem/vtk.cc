@@ -6,6 +6,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/temporary_folder.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstring>
 #include <fstream>

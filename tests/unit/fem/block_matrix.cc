@@ -2,6 +2,7 @@
 
 #include "fem/solid/block_matrix.h"
 
+#include <algorithm>
 #include <cstring>
 
 using namespace mergel::fem;
