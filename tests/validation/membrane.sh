@@ -45,11 +45,15 @@ specimen() {
   echo "$PWD/$name/sample.h5"
 }
 
+# node_distance S: as far apart as the nodes of the membrane may be, which is the diameter of the smallest particle
+node_distance() { awk -v S="$1" 'BEGIN { print 0.066 * S " mm" }'; }
+
 # of_the_paper NAME CASE SEED [SETTING...]: a test of 12 x 24 mm; a name that begins with Z4_ has a coordination of 4
 of_the_paper() {
   local name=$1 case=$2 seed=$3 Z=
   shift 3
   [[ $name != Z4_* ]] || Z=4
+  [[ $case = ucs ]] || set -- "Membrane/node distance=$(node_distance "${S:-5}")" "$@"
   run triaxial "$name" "$case" "Specimen/upscaling ratio=${S:-5}" ${Z:+"Specimen/coordination=$Z"} \
     "Specimen/seed=$seed" "Specimen/file=$(specimen "$seed" "${S:-5}" $Z)" "$@"
 }
@@ -68,7 +72,7 @@ table_of() {
     *) echo "table_$1: unknown" >&2; exit 1 ;;
   esac
   run triaxial "table_$1" triaxial_1MPa "Specimen/upscaling ratio=8" "Specimen/file=$(specimen 1 8)" \
-    "Loading/stage 2=triaxial to axial strain = 10 %" "${change[@]}"
+    "Membrane/node distance=$(node_distance 8)" "Loading/stage 2=triaxial to axial strain = 10 %" "${change[@]}"
 }
 table="base friction_0 friction_0.5 ends_fixed spherical_seat carried stiffness_0.7 stiffness_2"
 
