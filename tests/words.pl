@@ -70,6 +70,10 @@ my @files = grep { -f && !m{^tests/fuzz/corpus/|\.(png|h5|csv)$|^LICENSE$} } spl
   `git -c safe.directory='*' ls-files --cached --others --exclude-standard`;
 die "words.pl: no files in $root\n" unless @files;
 
+# One look at a line tells whether any word is in it.
+sub any_of { my $all = join '|', map { $_->[0] } @_; return qr/\b(?:$all)\b/; }
+my ($any_word, $any_word_of_code) = (any_of(@words), any_of(@words_of_code));
+
 my $found = 0;
 for my $file (@files) {
   open my $in, '<', $file or die "words.pl: $file: $!\n";
@@ -78,12 +82,15 @@ for my $file (@files) {
     next if exists $allowed{$file} && $line =~ $allowed{$file};
     next if $line =~ /former_(?:name|section)\(/;    # refuses an old key
     (my $text = $line) =~ s/"(?:bodies|[a-z0-9]+_[a-z0-9_]*)//g;   # names on disk
-    my @rules = map { [spoken($text), @$_] } @words;
+    my $said_of_all = spoken($text);
+    my @rules;
+    push @rules, map { [$said_of_all, @$_] } @words if $said_of_all =~ $any_word;
     if ($is_code) {
       (my $code = $text) =~ s{//.*}{};
       $code =~ s/"(?:[^"\\]|\\.)*"//g;
       $code =~ s/#include.*//;
-      push @rules, map { [spoken($code), @$_] } @words_of_code;
+      my $said_of_code = spoken($code);
+      push @rules, map { [$said_of_code, @$_] } @words_of_code if $said_of_code =~ $any_word_of_code;
     }
     for (@rules) {
       my ($said, $word, $use, $but) = @$_;
