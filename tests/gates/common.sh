@@ -6,8 +6,6 @@ cd "$(dirname "$(readlink -f "$0")")/../.."
 jobs=${JOBS:-$(nproc)}
 # Clones of one user share what ccache holds.
 export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$PWD} CCACHE_NOHASHDIR=1
-# Without this ccache keeps nothing that is compiled with a precompiled header.
-export CCACHE_SLOPPINESS=pch_defines,time_macros
 
 passed() { printf 'gate %-12s passed in %4d s: %s\n' "$gate" "$SECONDS" "$*"; }
 
