@@ -64,6 +64,17 @@ bool may_be_ignored(int number)
 /// Of the program at its start.
 bool are_interrupts_ignored = false, are_hangups_ignored = false;
 
+void remember_ignored()
+{
+  if (handler_of(SIGINT) == SIG_IGN) are_interrupts_ignored = true;
+  if (handler_of(SIGHUP) == SIG_IGN) are_hangups_ignored = true;
+}
+
+/// Libraries take signals as soon as they are loaded: UCX, below Open MPI 5, takes the SIGHUP that
+/// nohup had ignored. What stands in this section is called before any of them is initialised.
+[[gnu::section(".preinit_array"),
+  gnu::used]] void (*const before_libraries)() = remember_ignored;
+
 } // namespace
 
 Signals::Signals()
@@ -118,8 +129,7 @@ std::string name_of_signal(int number)
 
 void ignore_signals()
 {
-  are_interrupts_ignored = handler_of(SIGINT) == SIG_IGN;
-  are_hangups_ignored = handler_of(SIGHUP) == SIG_IGN;
+  remember_ignored();
   ignore_signals_again();
 }
 
