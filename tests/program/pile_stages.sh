@@ -78,14 +78,14 @@ same a
 three=("${more[@]:0:4}")
 pile "$case_file" "${options[@]}" "${three[@]}" --output b >log || fail "three stages: $(tail -3 log)"
 # Overlaps: a limit that is passed stops the run, and a restart with another one goes on.
-overlap=$(awk -F': ' '/"largest overlap/ { print $2 + 0 }' b/summary.json)
+overlap=$(awk -F': ' '/"largest overlap/ { print $2 + 0 }' whole/summary.json)
 holds "$overlap > 0 && $overlap <= 0.9" "the largest overlap"
 limit=$(awk "BEGIN { print 0.8 * $overlap }")
-code=$(code_of pile "$case_file" "${options[@]}" "${three[@]}" --set "Motion/largest overlap=$limit" --set "Output/checkpoint every=100 steps" --output d)
+code=$(code_of pile "$case_file" "${options[@]}" "${more[@]}" --set "Motion/largest overlap=$limit" --set "Output/checkpoint every=100 steps" --output d)
 [ "$code" -eq 2 ] && grep -q 'overlap by .* of the smaller radius (at most .*`Motion/largest overlap`' log || fail "the limit: exit code $code: $(tail -3 log)"
 [ -s d/failed.json ] || fail "no failed.json"
 pile --restart d --set "Motion/largest overlap=0.9" >log || fail "with another limit: $(tail -3 log)"
-cmp b/history.csv d/history.csv || fail "d: the history differs"
+cmp whole/history.csv d/history.csv || fail "d: the history differs"
 
 pile --restart b >log && grep -q 'all its loading stages are done. .*`Loading/stage 4`' log || fail "nothing to do: $(cat log)"
 [ "$(code_of pile --restart b --set "Loading/stage 3=unload to head force = 1 N")" -eq 1 ] &&

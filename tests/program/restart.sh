@@ -57,9 +57,9 @@ same c
 [ "$(checkpoints b)" -gt 0 ] || fail "a restart into another folder changed the first"
 
 # A full disk, as a file-size limit: no file can be written, then none as large as a checkpoint. The
-# limit holds for the ranks, but not for their shared memory: they speak by TCP, within the machine.
+# limit holds for the ranks, but not for their shared memory: they speak by TCP.
 limited() { # blocks of 1024 bytes
-  PMIX_MCA_gds=hash OMPI_MCA_btl=self,tcp OMPI_MCA_btl_tcp_if_include=lo on_ranks 2 \
+  PMIX_MCA_gds=hash OMPI_MCA_btl=self,tcp on_ranks 2 \
     bash -c 'ulimit -f "$1"; shift; exec "$@"' limited "$1" "$mergel" pile "${@:2}"
 }
 for blocks in 8 150; do
