@@ -38,6 +38,13 @@ touched "renamed" b 'b/history.csv: was removed, renamed or moved' mv history.cs
 touched "saved anew" c 'c/history.csv: was replaced by another file' saved_anew
 touched "emptied" d 'd/history.csv: has [0-9]* bytes where the run wrote [0-9]*' truncate -s 0 history.csv
 
+# Whether no frame is half written: of each kind there are as many files, and no temporary one.
+between_frames()
+{
+  [ -z "$(find "$1/fields" -name '.*')" ] &&
+    [ "$(ls "$1/fields" | sed 's/_[0-9]*\..*//' | sort | uniq -c | awk '{ print $1 }' | sort -u | wc -l)" -eq 1 ]
+}
+
 # What the run does not need to go on is no reason to lose its summary and the checkpoint of its end.
 # finished_without CODE NAME FOLDER PATTERN COMMAND...
 finished_without()
@@ -47,6 +54,11 @@ finished_without()
   launch "$mergel" element "$root/apps/cases/element_small.prm" "${tiny_cell[@]}" --output "$folder" >log 2>&1
   wait_for has_lines "$folder" 4
   kill -STOP $launched
+  until between_frames "$folder"; do # the files of a frame that is begun need their folder
+    kill -CONT $launched
+    sleep 0.02
+    kill -STOP $launched
+  done
   (cd "$folder" && "$@") || fail "$name: $*"
   kill -CONT $launched
   wait $launched || code=$?
