@@ -11,17 +11,30 @@ tiny_cell=(--set "Specimen/edge x=3.5 mm" --set "Specimen/edge y=3.5 mm" --set "
   --set "Loading/stage 3=" --set "Loading/stage 4=" --set "Output/checkpoint every=50 steps")
 element() { bounded "$mergel" element "$root/apps/cases/element_small.prm" "${tiny_cell[@]}" "$@"; }
 
+# act_when CONDITION FOLDER COMMAND...: for wait_for, while the run stands still.
+act_when()
+{
+  local condition=$1 folder=$2
+  shift 2
+  "$condition" "$folder" || return 1
+  (cd "$folder" && "$@") || fail "$folder: $*"
+}
+has_checkpoint() { has_lines "$1" 4 && exists "$1/checkpoint_*.h5"; }
+# No frame is half written, whose next files would need their folder: of each kind there are as many files, and no
+# temporary one.
+between_frames()
+{
+  has_lines "$1" 4 && [ -z "$(find "$1/fields" -name '.*')" ] &&
+    [ "$(ls "$1/fields" | sed 's/_[0-9]*\..*//' | sort | uniq -c | awk '{ print $1 }' | sort -u | wc -l)" -eq 1 ]
+}
+
 # touched NAME FOLDER PATTERN COMMAND...: the commands are run in the folder of a run that is stopped meanwhile.
 touched()
 {
   local name=$1 folder=$2 pattern=$3 code=0
   shift 3
   launch "$mergel" element "$root/apps/cases/element_small.prm" "${tiny_cell[@]}" --output "$folder" >log 2>&1
-  wait_for has_lines "$folder" 4
-  wait_for exists "$folder/checkpoint_*.h5"
-  kill -STOP $launched
-  (cd "$folder" && "$@") || fail "$name: $*"
-  kill -CONT $launched
+  wait_for act_when has_checkpoint "$folder" "$@"
   wait $launched || code=$?
   [ "$code" -eq 2 ] || fail "$name: exit code $code: $(tail -3 log)"
   grep -q "$pattern" log || fail "$name: $(tail -3 log)"
@@ -38,13 +51,6 @@ touched "renamed" b 'b/history.csv: was removed, renamed or moved' mv history.cs
 touched "saved anew" c 'c/history.csv: was replaced by another file' saved_anew
 touched "emptied" d 'd/history.csv: has [0-9]* bytes where the run wrote [0-9]*' truncate -s 0 history.csv
 
-# Whether no frame is half written: of each kind there are as many files, and no temporary one.
-between_frames()
-{
-  [ -z "$(find "$1/fields" -name '.*')" ] &&
-    [ "$(ls "$1/fields" | sed 's/_[0-9]*\..*//' | sort | uniq -c | awk '{ print $1 }' | sort -u | wc -l)" -eq 1 ]
-}
-
 # What the run does not need to go on is no reason to lose its summary and the checkpoint of its end.
 # finished_without CODE NAME FOLDER PATTERN COMMAND...
 finished_without()
@@ -52,15 +58,7 @@ finished_without()
   local wanted=$1 name=$2 folder=$3 pattern=$4 code=0
   shift 4
   launch "$mergel" element "$root/apps/cases/element_small.prm" "${tiny_cell[@]}" --output "$folder" >log 2>&1
-  wait_for has_lines "$folder" 4
-  kill -STOP $launched
-  until between_frames "$folder"; do # the files of a frame that is begun need their folder
-    kill -CONT $launched
-    sleep 0.02
-    kill -STOP $launched
-  done
-  (cd "$folder" && "$@") || fail "$name: $*"
-  kill -CONT $launched
+  wait_for act_when between_frames "$folder" "$@"
   wait $launched || code=$?
   [ "$code" -eq "$wanted" ] && grep -q "$pattern" log || fail "$name: exit code $code: $(tail -3 log)"
   code_of "$mergel" info "$folder" >/dev/null
