@@ -29,6 +29,15 @@ my %names = (    # header => what it declares
 my %gives = ('Eigen/Geometry' => 'Eigen/Core', 'Eigen/Dense' => 'Eigen/Core', 'Eigen/Eigenvalues' => 'Eigen/Core',
   'Eigen/Cholesky' => 'Eigen/Core', 'Eigen/LU' => 'Eigen/Core', 'Eigen/SVD' => 'Eigen/Core', 'Eigen/Sparse' => 'Eigen/Core');
 
+{
+  open my $file, '<', "$root/CMakeLists.txt" or die "CMakeLists.txt: $!\n";
+  local $/;
+  my ($precompiled) = <$file> =~ /^set\(pch_std ([^)]*)\)/m or die "CMakeLists.txt: no pch_std\n";
+  for ($precompiled =~ /<([^>]*)>/g) {
+    die "own_includes.pl does not know what <$_> declares, which is precompiled\n" unless $names{$_};
+  }
+}
+
 my %text;
 my %includes;    # of a file: its own, from <> and ""
 for my $folder (qw(dem fem coupling apps tests)) {
