@@ -2,11 +2,11 @@
 /// Membrane).
 #pragma once
 
-#include <cstdint>
-
 #include "fem/membrane/membrane_element.h"
 #include "fem/membrane/membrane_mesh.h"
 #include "fem/membrane/node_shares.h"
+
+#include <cstdint>
 
 namespace mergel::fem {
 

@@ -1,8 +1,6 @@
 /// Small solids with closed-form answers, for the tests of fem/.
 #pragma once
 
-#include <array>
-
 #include "fem/solid/elastic_solid.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -11,6 +9,8 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
+
+#include <array>
 
 namespace mergel::fem::test {
 

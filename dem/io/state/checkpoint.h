@@ -2,9 +2,9 @@
 /// restart).
 #pragma once
 
-#include <cstdint>
-
 #include "dem/io/state/state_file.h"
+
+#include <cstdint>
 
 namespace mergel::dem {
 
