@@ -25,8 +25,7 @@ stopped() {
   local n_ranks=$1 n_lines=$2 code=0
   shift 2
   launch mpirun --oversubscribe -n "$n_ranks" "$mergel" brazilian "$@" >log 2>&1
-  wait_for has_lines "$n_lines"
-  kill -TERM "$(last_rank)"
+  signal_when TERM has_lines "$n_lines"
   wait $launched || code=$?
   [ "$code" -eq 2 ] && grep -q 'stopped by SIGTERM at step .* (strain .*), checkpoint a/checkpoint_' log ||
     fail "SIGTERM on $n_ranks ranks: exit code $code: $(cat log)"

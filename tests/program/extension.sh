@@ -43,8 +43,7 @@ awk -F, -v first="$(lines first)" 'NR == first { t = $1; d = $2 } NR == first + 
 cp -r first second
 launch mpirun --oversubscribe -n 2 "$mergel" pile --restart second "${deeper[@]}" >log 2>&1
 grown() { [ "$(lines second)" -gt "$(($(lines first) + 3))" ]; }
-wait_for grown
-kill -TERM "$(last_rank)"
+signal_when TERM grown
 code=0; wait $launched || code=$?
 [ "$code" -eq 2 ] && grep -q 'stopped by SIGTERM at step .* (penetration)' log || fail "stopped in the second push: $(tail -3 log)"
 pile --restart second >log || fail "the rest of the second push: $(tail -3 log)"

@@ -37,8 +37,7 @@ cmp rock/sample.h5 b/sample.h5 || fail "on two ranks the specimen differs"
 lines() { cat "$1/history.csv" 2>/dev/null | wc -l; }
 has_lines() { [ "$(lines d)" -ge "$1" ]; }
 launch "$mergel" triaxial "$sand" "${tiny[@]}" --output d >d.log 2>&1
-wait_for has_lines $(($(lines a) / 2))
-kill -TERM "$launched"
+signal_when TERM has_lines $(($(lines a) / 2))
 wait "$launched" && fail "SIGTERM ends with 0"
 bounded "$mergel" triaxial --restart d >d.log 2>&1 || fail "the restart: $(tail -5 d.log)"
 cmp a/history.csv d/history.csv || fail "after a restart the history differs"

@@ -23,8 +23,7 @@ sed -e '/set smallest diameter/d; /set largest diameter/d' \
   "$root/apps/cases/element_small.prm" >project/case.prm
 element project/case.prm --output whole >log || fail "the whole run: $(tail -3 log)"
 launch "$mergel" element project/case.prm --output project/run >log 2>&1
-wait_for has_lines project/run $(($(wc -l <whole/history.csv) / 4))
-kill -TERM $launched
+signal_when TERM has_lines project/run $(($(wc -l <whole/history.csv) / 4))
 code=0; wait $launched || code=$?
 [ "$code" -eq 2 ] || fail "the stopped run: exit code $code: $(tail -3 log)"
 

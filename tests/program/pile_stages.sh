@@ -65,8 +65,7 @@ for k in 2 3 4 5 6 7 8; do
   launch mpirun --oversubscribe -n $((k % 3 + 1)) "$mergel" pile "${begin[@]}" >log 2>&1
   begin=(--restart a)
   under_way() { [ -f a/history.csv ] && [ -n "$(last a "$k" "stage [-]")" ]; }
-  wait_for under_way
-  kill -TERM "$(last_rank)" 2>/dev/null || true
+  signal_when TERM under_way
   code=0; wait $launched || code=$?
   [ "$code" -eq 0 ] && break # it ended before the signal came
   [ "$code" -eq 2 ] && grep -q "stopped by SIGTERM at step .* (stage " log || fail "stopped in stage $k: exit code $code: $(tail -3 log)"

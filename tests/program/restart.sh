@@ -24,8 +24,7 @@ tiny+=(--set "Specimen/file=$work/sample.h5")
 # SIGTERM to one of two ranks, while the assembly settles.
 launch mpirun --oversubscribe -n 2 "$mergel" pile "$case_file" "${tiny[@]}" --output a \
   --set "Output/checkpoint every=20 steps" >log 2>&1
-wait_for exists "a/checkpoint_*.h5"
-kill -TERM "$(last_rank)"
+signal_when TERM exists "a/checkpoint_*.h5"
 code=0; wait $launched || code=$?
 [ "$code" -eq 2 ] || fail "SIGTERM on two ranks: exit code $code: $(tail -3 log)"
 [ "$(grep -c 'stopped by SIGTERM at step .*(settling), checkpoint a/checkpoint_' log)" -eq 1 ] ||
