@@ -37,7 +37,8 @@ std::vector<double> on_axis(const Points& points, std::size_t k, const PlotQuant
 
 Points read_points(const std::filesystem::path& file, Mark mark)
 {
-  const dem::Table table = dem::read_table(file, dem::LastLine::whole);
+  dem::Table table = dem::read_table(file, dem::LastLine::whole);
+  table.drop_text_columns();
   const auto is_nameless = [&](std::size_t k) { return is_number(table.columns[k].name); };
   require(table.columns.size() == 2 && !is_nameless(0) && !is_nameless(1),
           file.string() +

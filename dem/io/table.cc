@@ -23,12 +23,29 @@ std::string_view trimmed(std::string_view text)
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
+/// Where a cell in double quotes ends, at its second quote; nothing where the line has no such
+/// cell at its beginning.
+std::optional<std::size_t> end_of_quoted(std::string_view line)
+{
+  const std::size_t open = line.find_first_not_of(" \t");
+  if (open == std::string_view::npos || line[open] != '"') return {};
+  std::size_t close = line.find('"', open + 1);
+  while (close != std::string_view::npos && line.substr(close + 1, 1) == "\"")
+    close = line.find('"', close + 2); // two of them stand for one in the text
+  if (close == std::string_view::npos) return {};
+  return close;
+}
+
 std::vector<std::string_view> split(std::string_view line, char separator)
 {
   std::vector<std::string_view> cells;
   while (true) {
-    const std::size_t end = line.find(separator);
-    cells.push_back(trimmed(line.substr(0, end)));
+    const auto close = end_of_quoted(line);
+    const std::size_t end = line.find(separator, close.value_or(0));
+    std::string_view cell = trimmed(line.substr(0, end));
+    if (close && cell.size() > 1 && cell.back() == '"')
+      cell = trimmed(cell.substr(1, cell.size() - 2));
+    cells.push_back(cell);
     if (end == std::string_view::npos) return cells;
     line.remove_prefix(end + 1);
   }
@@ -152,6 +169,7 @@ const std::vector<double>& Table::column(std::string_view name, std::string_view
   require(found != nullptr && found->unit == unit,
           file.string() + ": no column '" + std::string(name) + " [" + std::string(unit) +
               "]'; there are " + quoted_names(*this) + "." + likely_cause(*this, name));
+  require(found->text.empty(), found->text);
   return found->values;
 }
 
@@ -160,6 +178,7 @@ std::vector<double> Table::column_in(std::string_view name, const std::string& u
 {
   const TableColumn* found = find(*this, name);
   if (found == nullptr) return column(name, unit); // throws
+  require(found->text.empty(), found->text);
   if (found->unit == unit) return found->values;
   const std::string where = file.string() + ": column '" + std::string(name) + "'";
   require(!found->unit.empty(), where +
@@ -173,6 +192,18 @@ std::vector<double> Table::column_in(std::string_view name, const std::string& u
     throw InputError(where + ": " + e.what());
   }
   return values;
+}
+
+std::vector<std::string> Table::drop_text_columns()
+{
+  std::vector<std::string> names;
+  for (const TableColumn& c : columns) {
+    if (c.text.empty()) continue;
+    require(c.unit.empty(), c.text);
+    names.push_back(c.name);
+  }
+  std::erase_if(columns, [](const TableColumn& c) { return !c.text.empty(); });
+  return names;
 }
 
 namespace {
@@ -240,13 +271,19 @@ Table read_table(const std::filesystem::path& file, LastLine last)
                 name_of(separator) + ".");
     for (std::size_t c = 0; c < cells.size(); ++c) {
       double value = 0.0;
-      require(parse(std::string(cells[c]), separator, value),
-              where + "'" + shown(cells[c]) + "' under '" + shown(table.columns[c].name) +
-                  "' is not a number." +
-                  (cells.size() == 1 && cells[c].find_first_of(" \t") != std::string::npos
-                       ? " " + std::string(separators) + ", blanks do not."
-                       : std::string()));
-      table.columns[c].values.push_back(value);
+      TableColumn& column = table.columns[c];
+      if (!parse(std::string(cells[c]), separator, value)) {
+        const std::string wrong =
+            where + "'" + shown(cells[c]) + "' under '" + shown(column.name) +
+            "' is not a number." +
+            (cells.size() == 1 && cells[c].find_first_of(" \t") != std::string::npos
+                 ? " " + std::string(separators) + ", blanks do not."
+                 : std::string());
+        require(last == LastLine::whole && cells.size() > 1, wrong);
+        if (column.text.empty()) column.text = wrong;
+        value = std::numeric_limits<double>::quiet_NaN();
+      }
+      column.values.push_back(value);
     }
     ++table.n_rows;
     table.lines.push_back(number);

@@ -14,8 +14,10 @@ namespace mergel::dem {
 struct TableColumn {
   std::string name; ///< as written, without the unit
   std::string unit; ///< "-" for a pure number, empty if the heading gives none
-  /// One per record; NaN where the run had no value ("nan" or empty).
+  /// One per record; NaN where the run had no value ("nan" or empty), or text stands.
   std::vector<double> values;
+  /// The place of its first text and what is wrong with it; empty: it has numbers only.
+  std::string text{};
 };
 
 /// Size of a unit in another of the same dimension: 0.001 for "um" in "mm".
@@ -37,13 +39,18 @@ struct Table {
 
   /// The column of this name, which must carry this unit.
   /// @throws InputError naming the file, the missing name and unit, and the columns that
-  ///   exist
+  ///   exist; or the text that stands there
   const std::vector<double>& column(std::string_view name, std::string_view unit) const;
 
   /// The values of a column in this unit, whatever unit its heading carries.
   /// @throws InputError as above, and when the heading has no unit or one of another dimension
   std::vector<double> column_in(std::string_view name, const std::string& unit,
                                 const UnitSize& size) const;
+
+  /// Take out the columns of text without a unit, such as remarks on the records.
+  /// @return their names
+  /// @throws InputError for text under a heading with a unit
+  std::vector<std::string> drop_text_columns();
 };
 
 /// Whether a last line without a newline counts.
@@ -55,7 +62,8 @@ enum class LastLine {
 /// Read a table. Lines that begin with # are remarks. Commas, semicolons or tabs separate the
 /// columns: what a first line "sep=;" names, else what the line of headings has of them,
 /// semicolons first, then tabs. Where it is not commas, a number may have a decimal comma. A line
-/// of separators only is left out, as an empty one is.
+/// of separators only is left out, as an empty one is. A cell may stand in double quotes. In a
+/// file that was written by hand a column may hold text, while nothing asks for its numbers.
 /// @throws InputError naming file and line: file not readable, no record, a line with too
 ///   few or too many values, a value that is no number, two columns with one name
 Table read_table(const std::filesystem::path& file, LastLine last = LastLine::may_be_cut);

@@ -52,12 +52,13 @@ grep -q 'no mohr.png, critical_state.png and yield.png: caseless/resolved.prm' l
 
 # Measured curves.
 printf 'axial strain [%%],q [MPa],void ratio\n0,0,1.1\n0.4,5,1.1\n5,2.5,1.15\n' >lab.csv
-printf 'q [kPa],axial strain [-]\n0,0\n3000,\n2500,0.05\n' >other.csv
+printf 'q [kPa],axial strain [-],remark\n0,0,"wet, by hand"\n3000,,\n2500,0.05,\n' >other.csv
 printf 'depth [mm],q_c [MPa]\n0,0\n1,3\n3,7\n' >cpt.csv
 makes compare.png run_1 --compare lab.csv
 grep -q 'run_1: strains from stage 2 on, triaxial' log || fail "$(cat log)"
 cp out/compare.png before.png
 makes compare.png run_1 --compare lab.csv --compare other.csv
+grep -q "^other.csv: 'remark' holds text, which is not drawn$" log || fail "a column of text: $(cat log)"
 differs compare.png
 grep -q "other.csv: 1 of 3 values of 'axial strain' are missing" log || fail "$(cat log)"
 makes compare.png run_1 --compare lab.csv --stage 1

@@ -111,7 +111,9 @@ PlotQuantity for_axis(PlotQuantity q)
 
 Measured read_measured(const std::filesystem::path& file)
 {
-  Measured m{file, file.filename().string(), dem::read_table(file, dem::LastLine::whole)};
+  Measured m{
+      file, file.filename().string(), dem::read_table(file, dem::LastLine::whole), {}};
+  m.text_columns = m.table.drop_text_columns();
   require(m.table.columns.size() > 1,
           file.string() +
               ": has one column. Two are needed, with their names above the "
@@ -171,6 +173,8 @@ PlotCurve curve_in(const RunPlot& panel, const Measured& m, const std::vector<Ru
 std::vector<std::string> gaps_in(const Measured& m)
 {
   std::vector<std::string> lines;
+  for (const std::string& name : m.text_columns)
+    lines.push_back(m.file.string() + ": '" + name + "' holds text, which is not drawn");
   for (const dem::TableColumn& column : m.table.columns) {
     const auto n = std::count_if(column.values.begin(), column.values.end(),
                                  [](double value) { return !std::isfinite(value); });

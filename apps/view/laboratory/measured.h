@@ -24,6 +24,7 @@ struct Measured {
   std::filesystem::path file;
   std::string label; ///< the name of the file
   dem::Table table;
+  std::vector<std::string> text_columns; ///< names of those that held text, left out
 };
 
 /// @throws InputError naming the file: not readable, no table, fewer than two columns
@@ -43,7 +44,7 @@ PlotCurve curve_in(const RunPlot& panel, const Measured& measured,
                    const std::vector<Run>& runs);
 
 /// "lab.csv: 2 values of 'q' are missing; the curve has gaps there", one for each column
-/// that has some.
+/// that has some, and one for each column of text.
 std::vector<std::string> gaps_in(const Measured& measured);
 
 } // namespace mergel::apps

@@ -176,6 +176,31 @@ TEST_CASE("a column is given in any unit whose size is known", "[unit][dem]")
                     mergel::match::Contains("no column 'v [m]'"));
 }
 
+TEST_CASE("a column of text disturbs nothing until its numbers are asked for",
+          "[unit][dem]")
+{
+  const std::string text =
+      "q [MPa],\"remark, first\",e [-],day\n1,\"dry, \"\"as found\"\"\",\"0.9\",3 May\n"
+      "2,,0.8,4 May\n";
+  const File file(text);
+  Table table = read_table(file.path, LastLine::whole);
+  CHECK(table.column("q", "MPa") == std::vector<double>{1.0, 2.0});
+  CHECK(table.column("e", "-") == std::vector<double>{0.9, 0.8});
+  CHECK_THROWS_WITH(table.column("day", ""), // as the unit is
+                    mergel::match::Contains(":2: '3 May' under 'day' is not a number"));
+  CHECK(table.drop_text_columns() == std::vector<std::string>{"remark, first", "day"});
+  CHECK(table.columns.size() == 2);
+  CHECK_THAT(message_of(text),
+             mergel::match::Contains("under 'remark, first'")); // of a run
+
+  const File with_unit("q [MPa],e [-]\n1,x\n");
+  Table of_numbers = read_table(with_unit.path, LastLine::whole);
+  CHECK_THROWS_WITH(of_numbers.drop_text_columns(),
+                    mergel::match::Contains("'x' under 'e' is not a number"));
+  CHECK_THROWS_WITH(of_numbers.column_in("e", "-", {}),
+                    mergel::match::Contains("'x' under 'e' is not a number"));
+}
+
 TEST_CASE("bytes that are no plain text are written out in messages", "[unit][dem]")
 {
   CHECK_THAT(message_of("a [m]\n\xC2\xA0\x01\n"),
