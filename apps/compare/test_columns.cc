@@ -26,12 +26,18 @@ const std::vector<TestColumn>& test_columns()
       {"Young's modulus", "Pa", "E", "GPa", GPa, [](Test t) { return t.E; }},
       {"Poisson's ratio", "-", "nu", "-", 1.0, [](Test t) { return t.nu; }},
       {"bulk modulus", "Pa", "K", "GPa", GPa, [](Test t) { return t.K; }},
+      {"constrained modulus", "Pa", "M", "GPa", GPa, [](Test t) { return t.M; }},
       {"tensile strength", "Pa", "tension", "MPa", MPa,
        [](Test t) { return t.tensile_strength; }},
       {"largest 2P/(pi D t)", "Pa", "2P/piDt", "MPa", MPa,
        [](Test t) { return t.brazilian_strength; }},
       {"p at yield", "Pa", "p yield", "MPa", MPa, [](Test t) { return p_of(t.yield); }},
       {"q at yield", "Pa", "q yield", "MPa", MPa, [](Test t) { return q_of(t.yield); }},
+      {"axial stress at yield", "Pa", "sigma_a yield", "MPa", MPa,
+       [](Test t) {
+         return t.yield && t.kind == TestKind::oedometer ? t.yield->circle().sigma_1
+                                                         : no_value;
+       }},
       {"p at the peak", "Pa", "", "MPa", MPa, [](Test t) { return p_of(t.peak); }},
       {"q at the peak", "Pa", "q peak", "MPa", MPa, [](Test t) { return q_of(t.peak); }},
       {"axial strain at the peak", "-", "at", "%", percent,
@@ -52,6 +58,13 @@ const std::vector<TestColumn>& test_columns()
        [](Test t) {
          return t.kind == TestKind::triaxial && t.end.p > 0.0 ? t.end.q / t.end.p
                                                               : no_value;
+       }},
+      {"lateral over axial stress at the end", "-", "K0 end", "-", 1.0,
+       [](Test t) {
+         const dem::MohrCircle circle = t.end.circle();
+         return t.kind == TestKind::oedometer && circle.sigma_1 > 0.0
+                    ? circle.sigma_3 / circle.sigma_1
+                    : no_value;
        }},
       {"volumetric over axial strain rate at the end", "-", "dv/da", "-", 1.0,
        [](Test t) { return t.volume_rate; }},

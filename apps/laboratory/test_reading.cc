@@ -61,6 +61,10 @@ Span choose(const std::vector<std::string>& stages, std::size_t n)
   };
   if (const std::size_t k = first_of(is_compressed); k < n) return span_from(k, stages, n);
   if (const std::size_t k = first_of(is_pulled); k < n) return span_from(k, stages, n);
+  const auto is_oedometer = [](const std::string& stage) {
+    return kind_of(stage) == "oedometer";
+  };
+  if (const std::size_t k = first_of(is_oedometer); k < n) return span_from(k, stages, n);
   std::size_t chosen = n, last = 0;
   for (std::size_t k = 0; k < n; ++k) {
     if (kind_of(stages[k]) == "isotropic") chosen = k;
@@ -129,13 +133,24 @@ StressState state_at(const std::vector<StressState>& curve, double strain)
   return {};
 }
 
-/// The first state at which p passes this value.
-StressState state_at_p(const std::vector<StressState>& curve, double p)
+double mean_stress(const StressState& s)
+{
+  return s.p;
+}
+double axial_stress(const StressState& s)
+{
+  return s.p + 2.0 / 3.0 * s.q;
+}
+
+/// The first state at which this stress passes the value `at`.
+StressState state_at_stress(const std::vector<StressState>& curve,
+                            double (*stress)(const StressState&), double at)
 {
   for (std::size_t k = 1; k < curve.size(); ++k) {
-    const StressState &a = curve[k - 1], &b = curve[k];
-    if (a.p == b.p || (a.p - p) * (b.p - p) > 0.0) continue;
-    return state_at(curve, a.strain + (p - a.p) / (b.p - a.p) * (b.strain - a.strain));
+    const double strain = curve[k - 1].strain, a = stress(curve[k - 1]),
+                 b = stress(curve[k]);
+    if (a == b || (a - at) * (b - at) > 0.0) continue;
+    return state_at(curve, strain + (at - a) / (b - a) * (curve[k].strain - strain));
   }
   return {};
 }
@@ -148,14 +163,17 @@ void read_moduli(TestReading& r, const RunFindings& found)
   r.E = stage.at("Young's modulus [Pa]");
   r.nu = stage.at("Poisson's ratio [-]");
   r.K = stage.at("bulk modulus [Pa]");
+  r.M = stage.at("constrained modulus [Pa]");
   r.tensile_strength = stage.at("tensile strength [Pa]");
   StressState yield;
   if (r.is_sheared())
     yield = state_at(r.curve, stage.at("strain at yield [-]"));
   else if (r.kind == TestKind::isotropic)
-    yield = state_at_p(r.curve, stage.at("isotropic yield [Pa]"));
+    yield = state_at_stress(r.curve, mean_stress, stage.at("isotropic yield [Pa]"));
+  else if (r.kind == TestKind::oedometer)
+    yield = state_at_stress(r.curve, axial_stress, stage.at("oedometric yield [Pa]"));
   else if (r.kind == TestKind::other)
-    yield = state_at_p(r.curve, stage.at("p at yield [Pa]"));
+    yield = state_at_stress(r.curve, mean_stress, stage.at("p at yield [Pa]"));
   if (std::isfinite(yield.p)) r.yield = yield;
 }
 
@@ -244,6 +262,8 @@ std::string name_of(TestKind kind)
     return "tension";
   case TestKind::isotropic:
     return "isotropic";
+  case TestKind::oedometer:
+    return "oedometer";
   case TestKind::brazilian:
     return "Brazilian";
   case TestKind::other:
@@ -291,6 +311,7 @@ TestReading reading_of(const dem::Table& history, const TestCase& test_case,
   const std::string kind = kind_of(test_case.stages[span.first]);
   if (kind == "isotropic") r.kind = TestKind::isotropic;
   if (kind == "tension") r.kind = TestKind::tension;
+  if (kind == "oedometer") r.kind = TestKind::oedometer;
   if ((kind == "triaxial" || kind == "compression") && r.curve.back().strain > 0.0) {
     double sum = 0.0, q = 0.0;
     for (const StressState& s : r.curve) {

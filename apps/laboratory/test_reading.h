@@ -34,6 +34,7 @@ enum class TestKind {
   unconfined, ///< the same without lateral stress
   tension,    ///< pulled, without lateral stress
   isotropic,
+  oedometer, ///< axial compression without lateral strain
   brazilian, ///< of a disc; it has a strength and the strain of its end alone
   other      ///< any other path: its yield and its end are read
 };
@@ -49,8 +50,9 @@ struct TestReading {
 
   double confinement = no_value; ///< lateral stress of a triaxial test, mean [Pa]
   double E = no_value, nu = no_value, K = no_value; ///< of the summary [Pa], [-], [Pa]
-  double tensile_strength = no_value;               ///< direct [Pa]
-  double brazilian_strength = no_value;             ///< largest 2P/(pi D t) [Pa]
+  double M = no_value; ///< constrained modulus of an oedometer, of the summary [Pa]
+  double tensile_strength = no_value;   ///< direct [Pa]
+  double brazilian_strength = no_value; ///< largest 2P/(pi D t) [Pa]
   std::optional<StressState> yield;
   /// Of one fall of q, or of p in an isotropic test, by a tenth of the peak or more.
   std::optional<StressState> peak, minimum;
@@ -80,7 +82,8 @@ struct TestReading {
 void require_numbers_of_case(const dem::Table& history, const TestCase& test_case);
 
 /// The first stage of triaxial compression of a test; without one the first under tension,
-/// otherwise the last isotropic stage, otherwise the last stage.
+/// otherwise the first in an oedometer, otherwise the last isotropic stage, otherwise the last
+/// stage.
 /// A Brazilian test has no stages.
 /// @throws InputError naming the history when it is none of an element, triaxial or Brazilian
 ///   test, or holds none of its stages

@@ -1,5 +1,6 @@
 /// Several tests read together: what is read off each, which belong together, which make a
 /// line.
+#include "apps/compare/test_columns.h"
 #include "apps/compare/tests_table.h"
 #include "apps/laboratory/test_series.h"
 #include "tests/support/catch.h"
@@ -217,6 +218,41 @@ TEST_CASE("Loops of unloading are left out of a reading, and unload-reload is on
   dem::Table begun = history({{1, 0, 0, 1e6, 0, 1}, {1, 0.01, 0.01, 2e6, 3e6, 1}});
   begun.columns.erase(begun.columns.begin() + 1);
   CHECK(reading_of(begun, c, {}).stage == 1);
+}
+
+TEST_CASE("An oedometer is read with its modulus, its yield in axial stress and its K0",
+          "[unit][apps]")
+{
+  const TestCase c = test_case_of(
+      "subsection Loading\n  set stage 1 = isotropic to p = 1 MPa\n  set stage 2 = "
+      "oedometer to axial strain = 5 %\n  set stage 3 = isotropic to p = 9 MPa\nend\n",
+      "resolved.prm");
+  // Lateral stress 0.25 of the axial one, which is 1 GPa times the strain up to 4 MPa.
+  std::vector<Record> records{{1, 0, 0, 0, 0, 1}, {1, 0.001, 0.001, 1e6, 0, 1}};
+  for (int k = 0; k <= 50; ++k) {
+    const double strain = 1e-3 * k, axial = strain < 4e-3 ? 1e9 * strain : 4e6;
+    records.push_back({2, strain, strain, 0.5 * axial, 0.75 * axial, 1.0 - strain});
+  }
+  RunFindings found;
+  found.stages[2].add("constrained modulus [Pa]", 1e9);
+  found.stages[2].add("oedometric yield [Pa]", 3.5e6);
+  const TestReading r = reading_of(history(records), c, found);
+  CHECK(name_of(r.kind) == "oedometer");
+  CHECK(r.stage == 2); // not the isotropic one behind it
+  CHECK_FALSE(r.peak);
+  CHECK(r.not_critical == "not sheared");
+  REQUIRE(r.yield);
+  CHECK(r.yield->p == Approx(1.75e6));
+  CHECK(r.yield->strain == Approx(3.5e-3));
+  const auto value = [&](const std::string& name) {
+    const auto& columns = test_columns();
+    return std::find_if(columns.begin(), columns.end(),
+                        [&](const TestColumn& column) { return column.name == name; })
+        ->of(r);
+  };
+  CHECK(value("constrained modulus") == Approx(1e9));
+  CHECK(value("axial stress at yield") == Approx(3.5e6));
+  CHECK(value("lateral over axial stress at the end") == Approx(0.25));
 }
 
 TEST_CASE("A history without the stages of its case is refused", "[unit][apps]")
