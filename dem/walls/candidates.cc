@@ -1,6 +1,7 @@
 /// Candidates of a triangulated wall, and new wall bonds.
 #include "dem/walls/closest_on_triangle.h"
 #include "dem/walls/feature_numbers.h"
+#include "dem/walls/surface_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,28 +44,8 @@ void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double s
   std::vector<NearTriangle> near;
   const WallTopology& topo = wall.topology;
 
-  // Bounding spheres of the triangles, sorted along z: a particle tests only those at its
-  // height.
-  struct BoundingSphere {
-    double z, r;
-    Vec3 c;
-    int t;
-  };
-  std::vector<BoundingSphere> balls;
-  double r_max = 0.0;
-  for (std::size_t t = 0; t < topo.triangles.size(); ++t) {
-    const Triangle& k = topo.triangles[t];
-    const Vec3 c = (wall.x[uz(k[0])] + wall.x[uz(k[1])] + wall.x[uz(k[2])]) / 3.0;
-    double r = 0.0;
-    for (const int m : k) r = std::max(r, (wall.x[uz(m)] - c).norm());
-    balls.push_back({c.z(), r, c, static_cast<int>(t)});
-    r_max = std::max(r_max, r);
-  }
-  std::sort(balls.begin(), balls.end(),
-            [](const BoundingSphere& a, const BoundingSphere& b) {
-              return std::pair{a.z, a.t} < std::pair{b.z, b.t};
-            });
-
+  const SurfaceSearch search(wall.x, topo.triangles);
+  std::vector<int> near_box;
   struct Hit {
     int patch, triangle;
     double distance2;
@@ -75,14 +56,11 @@ void rebuild_wall(Wall& wall, const PairMaterials&, const Particles& p, double s
     const double reach = b.R + (activation_gap(wall.material) + skin) * b.S +
                          (extra.empty() ? 0.0 : extra[i]);
     hits.clear();
-    auto ball = std::lower_bound(balls.begin(), balls.end(), b.x.z() - reach - r_max,
-                                 [](const BoundingSphere& a, double z) { return a.z < z; });
-    for (; ball != balls.end() && ball->z <= b.x.z() + reach + r_max; ++ball) {
-      const double far = reach + ball->r;
-      if ((b.x - ball->c).squaredNorm() > far * far) continue;
-      const double distance2 = (closest_on(wall, ball->t, b.x).point - b.x).squaredNorm();
+    search.within(b.x, reach, near_box);
+    for (const int t : near_box) {
+      const double distance2 = (closest_on(wall, t, b.x).point - b.x).squaredNorm();
       if (distance2 > reach * reach) continue;
-      hits.push_back({topo.patch[uz(ball->t)], ball->t, distance2});
+      hits.push_back({topo.patch[uz(t)], t, distance2});
     }
     std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& c) {
       return std::pair{a.patch, a.triangle} < std::pair{c.patch, c.triangle};

@@ -24,9 +24,10 @@ public:
     std::size_t n_nodes = 0, n_edges = 0;
     for (NearTriangle& t : near) {
       t.n_fans = topo_.n_fans[uz(t.triangle)];
+      t.corners = topo_.triangles[uz(t.triangle)];
       for (std::size_t k = 0; k < 3; ++k) {
         const auto bit = static_cast<std::uint8_t>(1u << k);
-        Mark& node = node_[uz(topo_.triangles[uz(t.triangle)][k])];
+        Mark& node = node_[uz(t.corners[k])];
         if (node.candidate != candidate_) {
           node = {candidate_, n_nodes++};
           t.owns_node |= bit;

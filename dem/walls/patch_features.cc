@@ -93,9 +93,9 @@ public:
   }
 
 private:
-  const Vec3& corner(int t, std::size_t k) const
+  const Vec3& corner(const NearTriangle& t, std::size_t k) const
   {
-    return wall_.x[uz(wall_.topology.triangles[uz(t)][k % 3])];
+    return wall_.x[uz(t.corners[k % 3])];
   }
 
   /// Bit l of the result: whether the plane of the triangle in lane l is near. @param code of
@@ -107,7 +107,7 @@ private:
     for (std::size_t k = 0; k < 3; ++k) {
       Row rows[n_lanes];
       for (int l = 0; l < n_lanes; ++l) {
-        const Vec3& a = corner(near_[l < count_ ? l : 0]->triangle, k);
+        const Vec3& a = corner(*near_[l < count_ ? l : 0], k);
         rows[l] = Row{a.x(), a.y(), a.z(), 0.0};
       }
       Lanes unused;
@@ -163,27 +163,28 @@ private:
     const NearTriangle& near = *looked_at.near;
     const int t = near.triangle;
     if (looked_at.sign_of_face != 0) {
-      const TrianglePoint<double> face = point_of_face(TriangleRegions<double>(
-          triple(c_), triple(corner(t, 0)), triple(corner(t, 1)), triple(corner(t, 2))));
+      const TrianglePoint<double> face = point_of_face(
+          TriangleRegions<double>(triple(c_), triple(corner(near, 0)),
+                                  triple(corner(near, 1)), triple(corner(near, 2))));
       add(On::face, 0, {t, vec3(face.weight)}, vec3(face.x), looked_at.sign_of_face);
     }
     for (std::size_t k = 0; k < 3; ++k) {
       if (has(near.owns_edge & looked_at.foot, k)) {
         const int sign = 1 - ways_of_edge_[near.edge[k]];
-        if (sign != 0) add_edge(t, k, sign);
+        if (sign != 0) add_edge(near, k, sign);
       }
       if (has(near.owns_node, k)) {
         const int sign = near.n_fans[k] - features_.n_ways_[near.node[k]];
         if (sign != 0) {
           Vec3 weight = Vec3::Zero();
           weight[static_cast<int>(k)] = 1.0;
-          add(On::corner, static_cast<int>(k), {t, weight}, corner(t, k), sign);
+          add(On::corner, static_cast<int>(k), {t, weight}, corner(near, k), sign);
         }
       }
     }
   }
 
-  void add_edge(int t, std::size_t e, int sign)
+  void add_edge(const NearTriangle& t, std::size_t e, int sign)
   {
     const Vec3 &a = corner(t, e), &b = corner(t, e + 1);
     const Vec3 ab = b - a;
@@ -191,7 +192,8 @@ private:
     Vec3 weight = Vec3::Zero();
     weight[static_cast<int>(e)] = 1.0 - s;
     weight[static_cast<int>((e + 1) % 3)] = s;
-    add(PatchFeature::On::edge, static_cast<int>(e), {t, weight}, a + s * ab, sign);
+    add(PatchFeature::On::edge, static_cast<int>(e), {t.triangle, weight}, a + s * ab,
+        sign);
   }
 
   void add(PatchFeature::On on, int which, const Anchor& at, const Vec3& point, int sign)
@@ -234,7 +236,7 @@ void PatchFeatures::find_within(const Wall& wall, const ListedCandidate& candida
 {
   Scan scan(*this, wall, candidate, x, reach);
   for (const NearTriangle& t : near) {
-    const Vec3& corner = wall.x[uz(wall.topology.triangles[uz(t.triangle)][0])];
+    const Vec3& corner = wall.x[uz(t.corners[0])];
     if ((x - corner).dot(normal(wall, t.triangle)) <= reach) scan.add(t); // its plane
   }
   scan.finish();

@@ -68,7 +68,8 @@ struct Anchor {
 /// particle and wall together have moved by its clearance.
 struct NearTriangle {
   int triangle;
-  double clearance; ///< gap to the particle less g_a S [m]
+  Triangle corners{}; ///< its nodes, as in WallTopology
+  double clearance;   ///< gap to the particle less g_a S [m]
   /// Numbers of its corners and edges (k, k+1) among those of its candidate.
   std::array<std::uint16_t, 3> node{}, edge{};
   /// Bit k: it is the first of the candidate's triangles with this corner, with this edge.
