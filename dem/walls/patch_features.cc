@@ -28,6 +28,14 @@ void count(std::uint8_t& n, unsigned bits, std::size_t k)
   n = static_cast<std::uint8_t>(n + (bits >> k & 1u));
 }
 
+/// Whether n points through this triangle from the side of the particles: no root and no angle.
+bool enters(const Wall& wall, int t, const Vec3& n)
+{
+  const Triangle& k = wall.topology.triangles[uz(t)];
+  const Vec3& x = wall.x[uz(k[0])];
+  return n.dot((wall.x[uz(k[1])] - x).cross(wall.x[uz(k[2])] - x)) < 0.0;
+}
+
 /// The unit normal of a triangle, weighted with its angle at a corner.
 Vec3 weighted_normal(const Wall& wall, int t, std::size_t corner)
 {
@@ -44,25 +52,28 @@ bool is_in_front(const Wall& wall, const PatchFeature& feature)
   using On = PatchFeature::On;
   const WallTopology& topo = wall.topology;
   const int t = feature.at.triangle;
-  Vec3 n;
-  if (feature.on == On::face) {
-    const Triangle& k = topo.triangles[uz(t)];
-    const Vec3& x = wall.x[uz(k[0])];
-    n = (wall.x[uz(k[1])] - x).cross(wall.x[uz(k[2])] - x);
-  } else if (feature.on == On::edge) {
+  const auto is_entered = [&](int triangle) { return enters(wall, triangle, feature.n); };
+  if (feature.on == On::face) return is_entered(t);
+  if (feature.on == On::edge) {
     const int other = topo.across[uz(t)][uz(feature.which)];
-    if (other < 0) return true;
-    n = normal(wall, t) + normal(wall, other);
-  } else {
-    const int node = topo.triangles[uz(t)][uz(feature.which)];
-    n.setZero();
-    for (const int around : topo.around[uz(node)]) {
-      const std::size_t here = place_of(node, topo.triangles[uz(around)]);
-      if (topo.across[uz(around)][here] < 0 || topo.across[uz(around)][(here + 2) % 3] < 0)
-        return true;
-      n += weighted_normal(wall, around, here);
-    }
+    if (other < 0 || (is_entered(t) && is_entered(other))) return true;
+    return feature.n.dot(normal(wall, t) + normal(wall, other)) < 0.0;
   }
+  const int node = topo.triangles[uz(t)][uz(feature.which)];
+  const std::vector<int>& around = topo.around[uz(node)];
+  const auto place_in = [&](int triangle) {
+    return place_of(node, topo.triangles[uz(triangle)]);
+  };
+  const bool is_at_boundary = std::any_of(around.begin(), around.end(), [&](int triangle) {
+    const std::size_t here = place_in(triangle);
+    return topo.across[uz(triangle)][here] < 0 ||
+           topo.across[uz(triangle)][(here + 2) % 3] < 0;
+  });
+  // Through all of them: through their mean, whatever the weights.
+  if (is_at_boundary || std::all_of(around.begin(), around.end(), is_entered)) return true;
+  Vec3 n = Vec3::Zero();
+  for (const int triangle : around)
+    n += weighted_normal(wall, triangle, place_in(triangle));
   return feature.n.dot(n) < 0.0;
 }
 
