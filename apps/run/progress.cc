@@ -53,7 +53,7 @@ ProgressOutput ProgressOutput::standard()
 
 Progress::Progress(std::string phase, ProgressOutput output)
     : phase_(std::move(phase)), output_(std::move(output)), start_(output_.clock()),
-      shown_(start_), measured_(start_)
+      shown_(start_), measured_(start_), advanced_(start_)
 {
 }
 
@@ -79,6 +79,7 @@ void Progress::update(double fraction, const std::function<std::string()>& detai
   else
     rate_ += (1.0 - std::exp(-interval / window)) *
              ((fraction - measured_fraction_) / interval - rate_);
+  if (fraction > measured_fraction_) advanced_ = now;
   measured_ = now;
   measured_fraction_ = fraction;
 
@@ -87,7 +88,8 @@ void Progress::update(double fraction, const std::function<std::string()>& detai
                 100.0 * std::clamp(fraction, 0.0, 1.0));
   std::string line = phase_ + "  " + percent;
   if (const std::string text = detail(); !text.empty()) line += "  " + text;
-  if (elapsed >= settling && rate_ > 0.0 && fraction < 1.0)
+  const bool moves_on = now - advanced_ < file_interval;
+  if (elapsed >= settling && rate_ > 0.0 && fraction < 1.0 && moves_on)
     line += "  " + duration_text((1.0 - fraction) / rate_) + " left";
   show(line);
 }

@@ -29,7 +29,8 @@ struct ProgressOutput {
 ///     penetration  41.2 %  depth 1.15 mm (0.82 D_p)  1 min 20 s left
 ///
 /// The time left follows from the rate smoothed over the last tenth of the elapsed time, 10 s
-/// or more; it is not shown in the first two seconds. The destructor ends an open line,
+/// or more; it is not shown in the first two seconds, nor where nothing has moved on for 10 s,
+/// as near an equilibrium. The destructor ends an open line,
 /// so that an error message starts on a new line.
 class Progress {
 public:
@@ -60,6 +61,7 @@ private:
   ProgressOutput output_;
   double start_, shown_;                      ///< clock at the start and the last line [s]
   double measured_, measured_fraction_ = 0.0; ///< at the last update of the rate
+  double advanced_;                           ///< clock when the fraction last grew [s]
   double rate_ = 0.0;                         ///< smoothed, fraction per second
   std::size_t line_length_ = 0;               ///< of the open line on a terminal
 };

@@ -160,6 +160,21 @@ TEST_CASE("No time left is shown in the first seconds, without progress, or at t
   screen.now += 5.0;
   stuck.update(0.0);
   CHECK(screen.taken_text() == "\rdriving    0.0 %");
+
+  // Near an equilibrium a rate that fades would say ever more hours.
+  Progress faded("hold", screen.output());
+  screen.now += 5.0;
+  faded.update(0.9);
+  CHECK_THAT(screen.taken_text(), EndsWith("left"));
+  screen.now += 9.0;
+  faded.update(0.9);
+  CHECK_THAT(screen.taken_text(), EndsWith("left"));
+  screen.now += 1.0;
+  faded.update(0.9);
+  CHECK(screen.taken_text().find("left") == std::string::npos);
+  screen.now += 1.0;
+  faded.update(0.95);
+  CHECK_THAT(screen.taken_text(), EndsWith("left"));
 }
 
 TEST_CASE("An open line is ended when a phase ends early", "[unit][apps]")
