@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mergel::coupling {
 
@@ -138,12 +139,20 @@ void CoupledSystem::choose_subcycles()
   const double longest = dem::pi / std::sqrt(stable_step.omega2);
   // While it settles all has about the same frequency, and its ratio is looked at in any step.
   const bool is_settled = settling.phase == Settling::Phase::done;
+  const std::size_t most = is_settled && !is_equilibrium_waited_for_ ? largest_subcycle : 1;
   const StructureSystem system = structure_system();
   const dem::Springs springs = dem::present_springs(assembly, dt, &system);
   for (Member& s : structures)
-    if (moves(s))
-      s.structure->choose_subcycle(dt, stiffness_at(s, springs), longest,
-                                   is_settled ? largest_subcycle : 1);
+    if (moves(s)) s.structure->choose_subcycle(dt, stiffness_at(s, springs), longest, most);
+}
+
+void CoupledSystem::wait_for_equilibrium(bool is_waited_for)
+{
+  const bool was = std::exchange(is_equilibrium_waited_for_, is_waited_for);
+  const bool is_subcycled =
+      std::any_of(structures.begin(), structures.end(),
+                  [](const Member& s) { return s.structure->subcycle().n > 1; });
+  if (is_waited_for ? is_subcycled : was) choose_subcycles();
 }
 
 void CoupledSystem::equalise_frequencies()

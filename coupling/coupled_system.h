@@ -111,6 +111,11 @@ struct CoupledSystem {
   /// follows. Collective.
   void restore_masses();
 
+  /// Whether an equilibrium is waited for. Then the structures' own forces act at every step: as
+  /// impulses at every s-th one they shake what touches them, and the unbalanced-force ratio
+  /// would not fall below that. Not stored: to be said again after a restart. Collective.
+  void wait_for_equilibrium(bool is_waited_for);
+
   /// Give slow ranks fewer particles. The results do not depend on it, bit for bit.
   /// Collective.
   void balance_load();
@@ -148,6 +153,7 @@ private:
   std::vector<double> stiffness_at(const Member& s, const dem::Springs& springs) const;
   std::string where() const; ///< step and time, for messages
 
+  bool is_equilibrium_waited_for_ = false;
   double spent_before_ = 0.0; ///< computing time at the last balance_load() [s]
 };
 

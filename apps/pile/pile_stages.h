@@ -29,6 +29,10 @@ struct PileStage {
 
   bool operator==(const PileStage&) const = default;
   bool is_by_force() const { return kind == Kind::unload || kind == Kind::load; }
+  bool ends_in_equilibrium() const
+  {
+    return is_by_force() || (kind == Kind::hold && target == 0.0);
+  }
 };
 
 /// @throws InputError with the error and the expected form; it does not repeat the text

@@ -48,6 +48,7 @@ void StageRun::begin(std::size_t stage)
   else if (s.kind != Kind::hold)
     head_.prescribe_velocity(pile());
   choose_rate();
+  coupled_.wait_for_equilibrium(s.ends_in_equilibrium());
   require_heavy();
 }
 
@@ -55,6 +56,7 @@ void StageRun::resume(std::size_t stage)
 {
   stage_ = stage;
   choose_rate();
+  coupled_.wait_for_equilibrium(this->stage().ends_in_equilibrium());
 }
 
 double StageRun::way() const
@@ -116,6 +118,18 @@ void StageRun::step()
   ++n_steps_;
 }
 
+/// A pile without a head force that no particle touches would fly on as fast as the rock has thrown
+/// it: it is held there, until a particle touches it again.
+void StageRun::catch_loose_pile()
+{
+  if (!stage().is_by_force() || target().force != 0.0) return;
+  const bool is_loose = pile().resultant() == dem::Vec3::Zero();
+  if (is_loose && head_.control() == HeadControl::force)
+    head_.prescribe_velocity(pile());
+  else if (!is_loose && head_.control() == HeadControl::velocity)
+    head_.prescribe_force(pile());
+}
+
 bool StageRun::is_in_equilibrium()
 {
   if (n_steps_ < dem::steps_between_step_checks) return false;
@@ -137,7 +151,10 @@ bool StageRun::is_over()
   largest_force_ = std::max(largest_force_, std::abs(head_.head_force(pile())));
   if (s.kind == Kind::penetrate) return tip_depth() >= rate_.travel();
   if (s.kind == Kind::pull) return displaced() >= s.target;
-  if (coupled_.n_steps % dem::steps_between_step_checks == 0) require_heavy();
+  if (coupled_.n_steps % dem::steps_between_step_checks == 0) {
+    catch_loose_pile();
+    require_heavy();
+  }
   if (head_.control() != HeadControl::velocity &&
       tip_depth() - tip_ > case_.largest_settlement) {
     has_capacity_ = true;

@@ -71,6 +71,7 @@ private:
   const dem::RigidWall& pile() const { return coupled_.assembly.rigid_walls.front(); }
   void choose_rate();
   coupling::HeadTarget target() const;
+  void catch_loose_pile();
   bool is_in_equilibrium();
   void require_heavy() const;
   double displaced() const; ///< of pull and push, along its way [m]

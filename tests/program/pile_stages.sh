@@ -100,4 +100,13 @@ same b
   fail "an unloading to more: $(tail -3 log)"
 pile --restart c --set "Loading/stage 2=hold for 0.001 ms" >log || fail "with another stage: $(tail -3 log)"
 
+# A hold finds its equilibrium where the far field's own forces act at every third step or less often: they do not
+# meanwhile. As impulses they shake the particles at the interface by 3e-3 of the mean force.
+pile "$case_file" "${tiny[@]}" --set "Pile/cone angle=120 degree" --set "Output/frames=2" --set "Specimen/file=$work/first/sample.h5" \
+  --set "Loading/stage 1=penetrate to depth = 0.15 mm" --set "Loading/stage 2=hold" --set "Loading/unbalanced-force tolerance=3e-4" \
+  --set "Motion/time step safety=0.3" --output held >log || fail "a hold: $(tail -3 log)"
+limit=$(sed -n 's/^ *"limit of these steps \[-\]": \([^,]*\),*$/\1/p' held/summary.json)
+holds "$limit > 3" "the far field would act at every step anyway"
+holds "$(last held 2 "unbalanced-force ratio [-]") <= 3e-4" "the hold ended without equilibrium"
+
 echo "pile_stages: all checks hold; q_c after the unloading $(column whole 4 "q_c [Pa]" | sort -g | tail -1) Pa, before $(column whole 1 "q_c [Pa]" | sort -g | tail -1) Pa"
