@@ -11,7 +11,7 @@ namespace mergel::dem {
 
 namespace {
 
-constexpr std::size_t most_in_leaf = 4;
+constexpr std::size_t most_in_leaf = 8;
 
 } // namespace
 
@@ -21,36 +21,40 @@ SurfaceSearch::SurfaceSearch(const std::vector<Vec3>& x,
 {
   std::iota(order_.begin(), order_.end(), 0);
   std::vector<Eigen::AlignedBox3d> boxes(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
+  std::vector<Vec3> middles;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const int k : triangles[t]) boxes[t].extend(x[uz(k)]);
-  if (!triangles.empty()) build(boxes, 0, triangles.size());
+    middles.emplace_back(boxes[t].center());
+  }
+  if (!triangles.empty()) build(boxes, middles, 0, triangles.size());
 }
 
-void SurfaceSearch::build(const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t first,
+void SurfaceSearch::build(const std::vector<Eigen::AlignedBox3d>& boxes,
+                          const std::vector<Vec3>& middles, std::size_t first,
                           std::size_t end)
 {
   const std::size_t here = nodes_.size();
   nodes_.push_back({{}, first, end});
-  Eigen::AlignedBox3d box, middles;
+  Eigen::AlignedBox3d box, of_middles;
   for (std::size_t k = first; k < end; ++k) {
     box.extend(boxes[uz(order_[k])]);
-    middles.extend(boxes[uz(order_[k])].center());
+    of_middles.extend(middles[uz(order_[k])]);
   }
   nodes_[here].box = box;
   if (end - first <= most_in_leaf) return;
   Eigen::Index along = 0;
-  middles.sizes().maxCoeff(&along);
+  of_middles.sizes().maxCoeff(&along);
   const auto from = order_.begin();
   const std::size_t middle = first + (end - first) / 2;
-  std::nth_element(from + static_cast<std::ptrdiff_t>(first),
-                   from + static_cast<std::ptrdiff_t>(middle),
-                   from + static_cast<std::ptrdiff_t>(end), [&](int a, int b) {
-                     return std::pair{boxes[uz(a)].center()[along], a} <
-                            std::pair{boxes[uz(b)].center()[along], b};
-                   });
-  build(boxes, first, middle);
+  std::nth_element(
+      from + static_cast<std::ptrdiff_t>(first), from + static_cast<std::ptrdiff_t>(middle),
+      from + static_cast<std::ptrdiff_t>(end), [&](int a, int b) {
+        const double at_a = middles[uz(a)][along], at_b = middles[uz(b)][along];
+        return at_a != at_b ? at_a < at_b : a < b;
+      });
+  build(boxes, middles, first, middle);
   nodes_[here].second = nodes_.size();
-  build(boxes, middle, end);
+  build(boxes, middles, middle, end);
 }
 
 void SurfaceSearch::within(const Vec3& c, double reach, std::vector<int>& found) const

@@ -42,8 +42,8 @@ private:
     std::size_t second = 0; ///< number of the second child; 0 for a leaf
   };
 
-  void build(const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t first,
-             std::size_t end);
+  void build(const std::vector<Eigen::AlignedBox3d>& boxes,
+             const std::vector<Vec3>& middles, std::size_t first, std::size_t end);
 
   std::vector<Node> nodes_;
   std::vector<int> order_; ///< of the triangles
