@@ -152,6 +152,7 @@ void CoupledSystem::wait_for_equilibrium(bool is_waited_for)
   const bool is_subcycled =
       std::any_of(structures.begin(), structures.end(),
                   [](const Member& s) { return s.structure->subcycle().n > 1; });
+  // After a restart the structures have what they had: chosen anew, their limit would differ.
   if (is_waited_for ? is_subcycled : was) choose_subcycles();
 }
 

@@ -56,15 +56,14 @@ Span choose(const std::vector<std::string>& stages, std::size_t n)
     return (kind_of(stage) == "triaxial" || kind_of(stage) == "compression") &&
            !is_extended;
   };
-  const auto is_pulled = [](const std::string& stage) {
-    return kind_of(stage) == "tension";
+  const auto is_of = [](const char* kind) {
+    return [kind](const std::string& stage) { return kind_of(stage) == kind; };
   };
   if (const std::size_t k = first_of(is_compressed); k < n) return span_from(k, stages, n);
-  if (const std::size_t k = first_of(is_pulled); k < n) return span_from(k, stages, n);
-  const auto is_oedometer = [](const std::string& stage) {
-    return kind_of(stage) == "oedometer";
-  };
-  if (const std::size_t k = first_of(is_oedometer); k < n) return span_from(k, stages, n);
+  if (const std::size_t k = first_of(is_of("tension")); k < n)
+    return span_from(k, stages, n);
+  if (const std::size_t k = first_of(is_of("oedometer")); k < n)
+    return span_from(k, stages, n);
   std::size_t chosen = n, last = 0;
   for (std::size_t k = 0; k < n; ++k) {
     if (kind_of(stages[k]) == "isotropic") chosen = k;
@@ -139,7 +138,7 @@ double mean_stress(const StressState& s)
 }
 double axial_stress(const StressState& s)
 {
-  return s.p + 2.0 / 3.0 * s.q;
+  return s.circle().sigma_1;
 }
 
 /// The first state at which this stress passes the value `at`.
