@@ -119,14 +119,15 @@ void StageRun::step()
 }
 
 /// A pile without a head force that no particle touches would fly on as fast as the rock has thrown
-/// it: it is held there, until a particle touches it again.
+/// it, and nothing would slow it down: it is held there, in an unloading until a particle touches it
+/// again.
 void StageRun::catch_loose_pile()
 {
-  if (!stage().is_by_force() || target().force != 0.0) return;
+  if (target().force != 0.0) return;
   const bool is_loose = pile().resultant() == dem::Vec3::Zero();
   if (is_loose && head_.control() == HeadControl::force)
     head_.prescribe_velocity(pile());
-  else if (!is_loose && head_.control() == HeadControl::velocity)
+  else if (!is_loose && head_.control() == HeadControl::velocity && stage().is_by_force())
     head_.prescribe_force(pile());
 }
 
@@ -137,9 +138,7 @@ bool StageRun::is_in_equilibrium()
   if (stage().is_by_force() && time_ < case_.force_ramp) return false;
   constexpr double at_rest =
       0.01; // of the penetration rate, as at the end of a penetration
-  // A pile that no particle touches any more has come loose: nothing would slow it down.
-  const bool is_loose = pile().resultant() == dem::Vec3::Zero();
-  if (!is_loose && std::abs(pile().v.z()) > at_rest * case_.velocity) return false;
+  if (std::abs(pile().v.z()) > at_rest * case_.velocity) return false;
   const double scale = largest_force_ > 0.0 ? largest_force_ : 1.0;
   if (head_.unbalanced(pile(), scale) > case_.balance_tolerance) return false;
   return coupled_.unbalanced() <= case_.balance_tolerance;
