@@ -118,9 +118,9 @@ void StageRun::step()
   ++n_steps_;
 }
 
-/// A pile without a head force that no particle touches would fly on as fast as the rock has thrown
-/// it, and nothing would slow it down: it is held there, in an unloading until a particle touches it
-/// again.
+/// A pile without a head force that no particle touches would fly on as fast as the rock has
+/// thrown it, and nothing would slow it down: it is held there, in an unloading until a
+/// particle touches it again.
 void StageRun::catch_loose_pile()
 {
   if (target().force != 0.0) return;
