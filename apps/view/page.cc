@@ -35,6 +35,8 @@ constexpr double text_units = 27.0;     // height of ordinary text
 constexpr double tick_units = 8.0;      // length of a tick
 constexpr double frame_units = 1.8;     // width of frames and ticks
 constexpr double number_units = 15.0;   // from the frame to the numbers
+constexpr double title_units = 95.0;    // from the frame to the middle of the title of y
+constexpr double number_size = 0.9;     // of numbers, relative to ordinary text
 
 /// Filled convex polygons of one colour.
 class Shapes {
@@ -279,6 +281,35 @@ bool has_number(double tick, const Axis& axis)
   return digit == 1.0 || (!is_wide && (digit == 2.0 || digit == 5.0));
 }
 
+namespace {
+
+/// Width of a number over the height of its text [-], by the widths of Arial.
+double width_of_number(const std::string& text)
+{
+  double width = 0.0;
+  for (const char c : text) {
+    if (c >= '0' && c <= '9')
+      width += 0.556;
+    else if (c == '.')
+      width += 0.278;
+    else if (static_cast<unsigned char>(c) < 0x80 || static_cast<unsigned char>(c) >= 0xC0)
+      width += 0.584; // e, + and -, and a true minus sign by its first byte
+  }
+  return width;
+}
+
+/// Size of the numbers left of a panel: long ones are smaller, so that they end before the title.
+double size_of_y_numbers(const std::vector<std::string>& numbers)
+{
+  constexpr double room = title_units - number_units - 0.75 * text_units;
+  double widest = 0.0;
+  for (const std::string& number : numbers)
+    widest = std::max(widest, width_of_number(number));
+  return widest > 0.0 ? std::min(number_size, room / (widest * text_units)) : number_size;
+}
+
+} // namespace
+
 std::string tick_text(double value)
 {
   char text[32];
@@ -326,14 +357,17 @@ void draw_axes(Page& page, const Panel& panel)
     const double x = panel.at(value, panel.y.from).x;
     page.line({{x, x_side}, {x, x_side + outward * tick_units * u}}, ink, frame_units);
     page.text({x, x_side + outward * number_units * u}, number(value, panel.x),
-              {0.9, Across::middle, panel.is_x_on_top ? Up::foot : Up::head});
+              {number_size, Across::middle, panel.is_x_on_top ? Up::foot : Up::head});
   }
+  std::vector<std::string> y_numbers;
+  for (const double value : y_ticks) y_numbers.push_back(number(value, panel.y));
+  const double y_size = size_of_y_numbers(y_numbers);
   for (const double value : y_ticks) {
     const double y = panel.at(panel.x.from, value).y;
     page.line({{box.left - tick_units * u, y}, {box.left, y}}, ink, frame_units);
     if (panel.has_y_numbers)
       page.text({box.left - number_units * u, y}, number(value, panel.y),
-                {0.9, Across::right});
+                {y_size, Across::right});
   }
 
   page.line({{box.left, box.bottom},
@@ -347,7 +381,8 @@ void draw_axes(Page& page, const Panel& panel)
             {1.0, Across::middle, panel.is_x_on_top ? Up::foot : Up::head});
   TextStyle upwards;
   upwards.is_vertical = true;
-  page.text({box.left - 95.0 * u, 0.5 * (box.bottom + box.top)}, panel.y.title, upwards);
+  page.text({box.left - title_units * u, 0.5 * (box.bottom + box.top)}, panel.y.title,
+            upwards);
 }
 
 } // namespace mergel::apps
