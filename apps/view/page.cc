@@ -362,12 +362,11 @@ void draw_axes(Page& page, const Panel& panel)
   std::vector<std::string> y_numbers;
   for (const double value : y_ticks) y_numbers.push_back(number(value, panel.y));
   const double y_size = size_of_y_numbers(y_numbers);
-  for (const double value : y_ticks) {
-    const double y = panel.at(panel.x.from, value).y;
+  for (std::size_t k = 0; k < y_ticks.size(); ++k) {
+    const double y = panel.at(panel.x.from, y_ticks[k]).y;
     page.line({{box.left - tick_units * u, y}, {box.left, y}}, ink, frame_units);
     if (panel.has_y_numbers)
-      page.text({box.left - number_units * u, y}, number(value, panel.y),
-                {y_size, Across::right});
+      page.text({box.left - number_units * u, y}, y_numbers[k], {y_size, Across::right});
   }
 
   page.line({{box.left, box.bottom},
