@@ -7,7 +7,7 @@
 ///     }
 ///     file.read("pile.prm", {"Bond/effective modulus=0.63 GPa"});
 ///
-/// The format is deal.II's ParameterHandler's (`subsection Bond`, `set key = value`, `end`,
+/// The format is that of deal.II's ParameterHandler (`subsection Bond`, `set key = value`, `end`,
 /// `#` for comments, `\` to continue in the next line), one file, sections not nested.
 #pragma once
 

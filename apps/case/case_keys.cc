@@ -203,7 +203,10 @@ void CaseFile::Impl::match_file(const CaseScan& scan)
       refuse_key(file_name + ":" + std::to_string(entry.line) + ": " + entry.section + "/" +
                      entry.key,
                  entry);
-    for (CaseKey* same : find_all(entry.section, entry.key)) same->line = entry.line;
+    for (CaseKey* same : find_all(entry.section, entry.key)) {
+      same->value = entry.value;
+      same->line = entry.line;
+    }
   }
 }
 

@@ -120,7 +120,7 @@ struct CaseFile::Impl {
   /// The same for a key. @param place "pile.prm:14: Pile/diametre"
   [[noreturn]] void refuse_key(const std::string& place, const CaseEntry& entry) const;
 
-  /// Refuse unknown sections and keys of the file; set the lines of the others.
+  /// Refuse unknown sections and keys of the file; set values and lines of the others.
   void match_file(const CaseScan& scan);
 
   /// The same for one --set. An empty value takes back what the file gives to an optional number

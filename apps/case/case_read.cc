@@ -4,11 +4,6 @@
 #include "apps/case/words.h"
 #include "dem/error.h"
 
-#include <deal.II/base/exceptions.h>
-#include <deal.II/base/parameter_handler.h>
-#include <deal.II/base/patterns.h>
-
-#include <sstream>
 #include <system_error>
 
 namespace mergel::apps {
@@ -86,37 +81,13 @@ void CaseFile::read(const std::string& text, const std::string& name,
   const CaseScan scan = scan_case(text, impl_->file_name);
   impl_->declare_numbers(with_overrides(scan.entries, overrides));
   for (CaseKey& key : impl_->keys) {
+    key.value = key.standard;
     key.line = 0;
     key.is_override = false;
     key.is_active = true;
   }
   impl_->section_lines = scan.sections;
   impl_->match_file(scan);
-
-  // deal.II reads the file. Its patterns accept any text: the parsers of the keys check
-  // units and ranges, with messages of one line.
-  dealii::ParameterHandler prm;
-  for (const CaseKey& key : impl_->keys) {
-    if (&key != impl_->find_all(key.section, key.name).front()) continue;
-    prm.enter_subsection(key.section);
-    prm.declare_entry(key.name, key.standard, dealii::Patterns::Anything(), key.sentence);
-    prm.leave_subsection();
-  }
-  try {
-    std::istringstream stream(text);
-    prm.parse_input(stream, impl_->file_name);
-  } catch (const dealii::ExceptionBase& error) {
-    const std::string text = in_one_line(error.what());
-    const std::string banner = "Additional information: ";
-    const auto start = text.find(banner);
-    throw InputError(impl_->file_name + ": " +
-                     text.substr(start == std::string::npos ? 0 : start + banner.size()));
-  }
-  for (CaseKey& key : impl_->keys) {
-    prm.enter_subsection(key.section);
-    key.value = key.line > 0 ? std::string(trimmed(prm.get(key.name))) : key.standard;
-    prm.leave_subsection();
-  }
 
   for (const std::string& argument : overrides)
     impl_->match_override(scan_override(argument));

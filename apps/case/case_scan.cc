@@ -21,7 +21,7 @@ bool read_keyword(std::string_view line, std::string_view lower, std::string_vie
 {
   if (!line.starts_with(lower) && !line.starts_with(upper)) return false;
   rest = line.substr(lower.size());
-  if (!rest.empty() && rest.front() != ' ' && rest.front() != '\t') return false;
+  if (!rest.empty() && rest.front() != ' ') return false;
   rest = trimmed(rest);
   return true;
 }
@@ -31,9 +31,10 @@ class Scanner {
 public:
   explicit Scanner(const std::string& name) : name_(name) {}
 
-  void take(std::string_view line, int number)
+  void take(std::string text, int number)
   {
-    line = trimmed(line.substr(0, line.find('#')));
+    std::replace(text.begin(), text.end(), '\t', ' '); // as ParameterHandler does
+    const std::string_view line = trimmed(std::string_view(text).substr(0, text.find('#')));
     line_ = number;
     std::string_view rest;
     if (line.empty()) return;
@@ -130,8 +131,7 @@ CaseScan scan_case(std::string_view text, const std::string& name)
     if (is_continued) line.remove_suffix(1);
     joined += line;
     if (is_continued && !text.empty()) continue;
-    scanner.take(joined, first);
-    joined.clear();
+    scanner.take(std::exchange(joined, {}), first);
     first = 0;
   }
   return scanner.finish();

@@ -1,5 +1,4 @@
-/// The text of a case file and the line number of each key, which ParameterHandler does not
-/// keep.
+/// The text of a case file: its keys, their values and lines.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +25,7 @@ struct CaseScan {
 /// @throws InputError when it is missing, a folder, not readable, larger than 1 MB, or not text
 std::string read_case_text(const std::filesystem::path& path);
 
-/// Scan the text of a case file by the rules of ParameterHandler.
+/// Scan the text of a case file: values are those that deal.II's ParameterHandler reads.
 ///
 /// @param name of the file, for messages
 /// @throws InputError "name:line: ..." for a line that is none of subsection, set and end,
