@@ -15,7 +15,7 @@
 #include "apps/run/signals.h"
 #include "dem/error.h"
 #include "dem/io/standard_output.h"
-#include "fem/runtime.h"
+#include "dem/parallel/mpi_session.h"
 
 #include <CLI/CLI.hpp>
 
@@ -157,7 +157,7 @@ int run(int argc, char** argv)
       return code;
     };
 
-  fem::Runtime runtime(argc, argv);
+  const dem::MpiSession mpi;
   ignore_signals_again();
   return run_guarded(start);
 }

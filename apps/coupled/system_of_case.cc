@@ -1,8 +1,10 @@
 #include "apps/coupled/system_of_case.h"
 
 #include "apps/run/progress.h"
+#include "apps/run/ranks.h"
 #include "coupling/equilibrium.h"
 #include "dem/specimen/surface_load.h"
+#include "fem/mesh_library.h"
 
 #include <cmath>
 #include <optional>
@@ -10,8 +12,14 @@
 
 namespace mergel::apps {
 
+void load_mesh_library()
+{
+  on_every_rank([] { fem::mesh_library(); });
+}
+
 fem::FarField make_far_field(CoupledCase& c, MPI_Comm comm)
 {
+  load_mesh_library();
   fem::FarField far_field(c.far_field, comm);
   // The corners of the prism are the interface nodes of the surface; those of a half do not
   // close a ring.

@@ -9,6 +9,10 @@
 
 namespace mergel::apps {
 
+/// Load what makes meshes, before there is work that would be lost without it. Collective.
+/// @throws CollectiveFailure as fem::mesh_library() does
+void load_mesh_library();
+
 /// The far field of a case, on all ranks of `comm`, which must outlive it. Sets in `c` the
 /// number of faces of its side, inside which the specimen is made.
 /// @throws std::invalid_argument as fem::FarField does

@@ -1,6 +1,6 @@
 #include "apps/pile/pile_plan.h"
 
-#include "fem/far_field/far_field_mesh.h"
+#include "fem/far_field/far_field_geometry.h"
 
 #include <cmath>
 

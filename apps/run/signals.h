@@ -31,8 +31,8 @@ std::string name_of_signal(int number);
 /// Signals object exists.
 void ignore_signals();
 
-/// Call it after the libraries are initialised: PETSc resets what ignore_signals() did, and
-/// what nohup did. @pre ignore_signals() was called
+/// Call it after MPI is initialised: a library below it may have reset what ignore_signals() did,
+/// and what nohup did. @pre ignore_signals() was called
 void ignore_signals_again();
 
 } // namespace mergel::apps

@@ -1,5 +1,6 @@
 /// mergel triaxial: loads a cylinder of bonded rock between two platens, in a membrane under
 /// a cell pressure or unconfined.
+#include "apps/coupled/system_of_case.h"
 #include "apps/run/progress.h"
 #include "apps/run/protocol.h"
 #include "apps/run/ranks.h"
@@ -170,6 +171,7 @@ std::string words_of_seat(const coupling::TriaxialTest& test, std::size_t n_step
 
 void TriaxialJob::begin(const CaseFile& file, RunFolder& folder, MPI_Comm comm)
 {
+  if (case_.membrane.is_there) load_mesh_library();
   const dem::Sample sample = obtain_sample(file, case_.specimen);
   std::cout << report(case_.specimen, sample) << '\n';
   geometry_ = geometry_of(case_, sample.packing.porosity);

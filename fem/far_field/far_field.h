@@ -66,10 +66,10 @@ struct InterfaceMesh {
 /// sigma_v (tension positive); base fixed, cut plane of a half model and (by default) chamber
 /// wall on rollers, top free. Every rank holds the complete far field and gets the same bits; the
 /// product with the stiffness, most of the cost of a step, is distributed over the ranks.
-/// Needs a fem::Runtime.
+/// Its mesh is made by mesh_library().
 class FarField {
 public:
-  /// Builds the mesh and assembles. Throws as FarFieldSpec::check does.
+  /// Builds the mesh and assembles. Throws as FarFieldSpec::check and mesh_library() do.
   /// @param comm ranks that hold it and call step() together; it must outlive the object
   explicit FarField(const FarFieldSpec& spec, MPI_Comm comm = MPI_COMM_NULL);
   ~FarField();
@@ -137,7 +137,7 @@ public:
   /// One sentence with counts and sizes, for the log.
   std::string summary() const;
 
-  /// Displacement, velocity and stress (initial stress included); see fem/solid/output.h.
+  /// Displacement, velocity and stress (initial stress included); see fem/dealii/output.h.
   void write_vtu(const std::string& path, const std::string& made_by = "") const;
 
 private:

@@ -1,14 +1,14 @@
 #include "fem/membrane/membrane.h"
 
+#include "fem/mesh_library.h"
 #include "fem/node_lanes.h"
-
-#include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace mergel::fem {
 
@@ -42,9 +42,8 @@ Vec3 vec3(const Vector<double>& a)
 
 } // namespace
 
-Membrane::Membrane(const dealii::Triangulation<2, 3>& mesh,
-                   const MembraneMaterial& material, MPI_Comm comm)
-    : rest_(surface_of(mesh)), material_(material), shares_(n_nodes(), comm),
+Membrane::Membrane(SurfaceMesh rest, const MembraneMaterial& material, MPI_Comm comm)
+    : rest_(std::move(rest)), material_(material), shares_(n_nodes(), comm),
       first_corner_(shares_.first()), end_corner_(shares_.end())
 {
   material_.check();
@@ -254,9 +253,7 @@ Eigen::ArrayXd Membrane::stiffness_bound(const NodalField& x) const
 
 Membrane make_membrane(const Tube& tube, const MembraneMaterial& material, MPI_Comm comm)
 {
-  dealii::Triangulation<2, 3> mesh;
-  make_tube(tube, mesh);
-  return Membrane(mesh, material, comm);
+  return Membrane(mesh_library().make_tube(tube), material, comm);
 }
 
 } // namespace mergel::fem

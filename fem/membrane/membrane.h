@@ -3,8 +3,8 @@
 #pragma once
 
 #include "fem/membrane/membrane_element.h"
-#include "fem/membrane/membrane_mesh.h"
 #include "fem/membrane/node_shares.h"
+#include "fem/membrane/tube.h"
 
 #include <cstdint>
 
@@ -47,7 +47,7 @@ class Membrane {
 public:
   /// @param comm ranks that share the nodes; MPI_COMM_NULL: one rank, without MPI
   /// @throws std::invalid_argument as material.check()
-  Membrane(const dealii::Triangulation<2, 3>& mesh, const MembraneMaterial& material,
+  Membrane(SurfaceMesh rest, const MembraneMaterial& material,
            MPI_Comm comm = MPI_COMM_NULL);
 
   const SurfaceMesh& rest() const { return rest_; }
@@ -90,7 +90,7 @@ private:
   std::size_t n_mine_ = 0; ///< triangles in the batches
 };
 
-/// The membrane of a tube at rest.
+/// The membrane of a tube at rest. @throws std::runtime_error as mesh_library() does
 Membrane make_membrane(const Tube& tube, const MembraneMaterial& material,
                        MPI_Comm comm = MPI_COMM_NULL);
 

@@ -21,6 +21,9 @@ PATH=$work/prefix/bin:$PATH
 [ "$(command -v mergel)" = "$work/prefix/bin/mergel" ] || fail "mergel is $(command -v mergel)"
 cmp <(mergel version) <("$mergel" version) || fail "another version is installed"
 mergel bond prefix/share/mergel/apps/cases/bond_fig5a.prm --output bond >log || fail "the installed program: $(cat log)"
+[ -s prefix/lib*/mergel/libmergel_dealii.so ] || [ -s prefix/lib/*/mergel/libmergel_dealii.so ] ||
+  fail "the library of the meshes is not installed"
+mergel pile "$case_file" "${tiny[@]}" "${shallow[@]}" --output pile >log 2>&1 || fail "a job with a mesh: $(tail -3 log)"
 mergel check prefix/share/mergel/apps/cases/sample_rock.prm >log || fail "a case that names a file beside it: $(cat log)"
 
 command -v man >/dev/null || command -v groff >/dev/null ||

@@ -1,4 +1,4 @@
-// Main of the test programs without deal.II, for versions 2 and 3 of Catch2 alike.
+// Main of the test programs without MPI, for versions 2 and 3 of Catch2 alike.
 #define CATCH_CONFIG_RUNNER
 #include "tests/support/catch.h"
 

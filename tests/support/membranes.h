@@ -3,6 +3,7 @@
 
 #include "tests/support/catch.h"
 
+#include "fem/dealii/surface_mesh.h"
 #include "fem/membrane/membrane.h"
 
 #include <deal.II/grid/grid_generator.h>

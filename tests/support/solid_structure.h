@@ -2,7 +2,7 @@
 #pragma once
 
 #include "coupling/structure.h"
-#include "fem/solid/elastic_solid.h"
+#include "fem/dealii/elastic_solid.h"
 #include "fem/solid/leapfrog.h"
 
 namespace mergel::coupling::test {

@@ -1,9 +1,9 @@
 // The far field as the coupling uses it: fem/README.md, 5. Initial stress, 8. Static
 // solution; coupling/README.md, Start of a coupled run.
 #include "fem/boundary_ids.h"
+#include "fem/dealii/elastic_solid.h"
+#include "fem/dealii/far_field_mesh.h"
 #include "fem/far_field/far_field.h"
-#include "fem/far_field/far_field_mesh.h"
-#include "fem/solid/elastic_solid.h"
 #include "fem/solver/linear_solver.h"
 #include "tests/support/catch.h"
 #include "tests/support/small_chamber.h"

@@ -144,7 +144,7 @@ TEST_CASE("Nodal forces of a membrane are those of the weak form with deal.II's 
                                 dealii::update_gradients | dealii::update_JxW_values |
                                     dealii::update_normal_vectors);
   for (const Compression compression : both_compressions) {
-    const Membrane membrane(sphere.mesh, latex_with(compression));
+    const Membrane membrane(surface_of(sphere.mesh), latex_with(compression));
     const double mu = latex.mu(), p = 2e3;
     const NodalField x = sphere.deformed(membrane, Vec3(1.3, 0.9, 0.8));
 
@@ -183,7 +183,7 @@ TEST_CASE("Nodal forces of a membrane are those of the weak form with deal.II's 
                 .array();
     }
     NodalField f;
-    Membrane(sphere.mesh, latex_with(compression)).forces(x, p, f);
+    Membrane(surface_of(sphere.mesh), latex_with(compression)).forces(x, p, f);
     const auto n_triangles = membrane.rest().triangles.size();
     if (compression == Compression::wrinkles) {
       CHECK(n_wrinkled > n_triangles / 5);
@@ -247,7 +247,7 @@ TEST_CASE("Forces of a membrane are -dW/dx, without resultant or moment",
 {
   IrregularSphere sphere(1);
   for (const Compression compression : both_compressions) {
-    Membrane membrane(sphere.mesh, latex_with(compression));
+    Membrane membrane(surface_of(sphere.mesh), latex_with(compression));
     const NodalField x = sphere.deformed(membrane, Vec3(1.2, 1.0, 0.8));
     NodalField f;
     membrane.forces(x, 0.0, f);
@@ -279,7 +279,7 @@ TEST_CASE(
   const Vec3 shift(0.04, -0.02, 0.07);
   const auto rigid = [&](const Vec3& x) { return Vec3(turn * x + shift); };
   for (const Compression compression : both_compressions) {
-    Membrane membrane(sphere.mesh, latex_with(compression));
+    Membrane membrane(surface_of(sphere.mesh), latex_with(compression));
     NodalField f, g;
     const NodalField rest = membrane.rest_positions();
     // A position is rounded by 1e-16 of 0.1 m.
@@ -305,7 +305,7 @@ TEST_CASE(
     "[verification][fem]")
 {
   IrregularSphere sphere(2);
-  Membrane membrane(sphere.mesh, latex);
+  Membrane membrane(surface_of(sphere.mesh), latex);
   // Slack everywhere: the pressure alone.
   const NodalField x =
       sphere.deformed(membrane, Vec3(0.5, 0.4, 0.3)) +
@@ -336,7 +336,7 @@ TEST_CASE("The stiffness bound of a membrane is never exceeded, and at most ten 
   const Vec3 stretches[] = {Vec3(1.0, 1.0, 1.0), Vec3(1.5, 1.4, 1.3), Vec3(1.2, 1.0, 0.7)};
   for (const Compression compression : both_compressions)
     for (const Vec3& stretch : stretches) {
-      Membrane membrane(sphere.mesh, latex_with(compression));
+      Membrane membrane(surface_of(sphere.mesh), latex_with(compression));
       const bool at_rest = stretch == Vec3(1.0, 1.0, 1.0);
       const NodalField x =
           at_rest ? membrane.rest_positions() : sphere.deformed(membrane, stretch);
@@ -375,12 +375,12 @@ TEST_CASE("Forces of a membrane that ranks share have the bits of those of one",
 {
   IrregularSphere sphere(2);
   for (const Compression compression : both_compressions) {
-    Membrane alone(sphere.mesh, latex_with(compression));
+    Membrane alone(surface_of(sphere.mesh), latex_with(compression));
     const NodalField x = sphere.deformed(alone, Vec3(1.2, 1.0, 0.8));
     NodalField f, f_shared;
     alone.forces(x, 1e3, f);
     for (const MPI_Comm comm : {MPI_COMM_SELF, MPI_COMM_WORLD}) {
-      Membrane shared(sphere.mesh, latex_with(compression), comm);
+      Membrane shared(surface_of(sphere.mesh), latex_with(compression), comm);
       shared.forces(x, 1e3, f_shared);
       CHECK((f == f_shared).all());
     }

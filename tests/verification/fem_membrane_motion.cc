@@ -30,7 +30,7 @@ struct PressedTube {
   explicit PressedTube(double alpha)
   {
     make_tube(tube, mesh);
-    Membrane membrane(mesh, latex);
+    Membrane membrane(surface_of(mesh), latex);
     rest = membrane.rest_positions();
     k = 2e7 * 2.0 * pi * R * tube.height / tube.n_nodes(); // p_end moves it by R/50
     stable =
@@ -122,7 +122,7 @@ TEST_CASE("A pressure set before the first step acts in it and does the work p d
 {
   dealii::Triangulation<2, 3> mesh;
   make_tube(tube, mesh);
-  Membrane membrane(mesh, latex);
+  Membrane membrane(surface_of(mesh), latex);
   const NodalField rest = membrane.rest_positions();
   const Eigen::ArrayXd m = membrane.masses();
   NodalField f;

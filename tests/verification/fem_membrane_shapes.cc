@@ -31,7 +31,7 @@ struct Balloon {
   explicit Balloon(unsigned n)
   {
     make_sphere(R0, n, mesh);
-    membrane = std::make_unique<Membrane>(mesh, latex);
+    membrane = std::make_unique<Membrane>(surface_of(mesh), latex);
     x = membrane->rest_positions();
   }
   /// Pressure in equilibrium at l^3 times the volume at rest, over mu t0/R0.
@@ -103,7 +103,7 @@ struct ClosedCylinder {
     const Tube tube{R0, 0.0, 0.04, n_around, n_around / 4};
     dealii::Triangulation<2, 3> mesh;
     make_tube(tube, mesh);
-    Membrane membrane(mesh, latex);
+    Membrane membrane(surface_of(mesh), latex);
     const auto forces = [&](const NodalField& x, NodalField& f) {
       membrane.forces(x, -p, f); // normals inwards
       const EnclosedVolume v = membrane.enclosed(x, tube);
@@ -166,7 +166,7 @@ double rise_of_disc(unsigned n, double load)
   const double a = 0.05, p = load * E * t0 / a;
   dealii::Triangulation<2, 3> mesh;
   make_disc(a, n, mesh);
-  Membrane membrane(mesh, latex);
+  Membrane membrane(surface_of(mesh), latex);
   const NodalField rest = membrane.rest_positions();
   NodalField free = all_free(membrane);
   for (Eigen::Index i = 0; i < rest.cols(); ++i)
@@ -212,7 +212,7 @@ struct ShearedStrip {
   {
     dealii::Triangulation<2, 3> mesh;
     make_rectangle(L, h, 6 * n, n, mesh);
-    Membrane membrane(mesh, latex);
+    Membrane membrane(surface_of(mesh), latex);
     n_triangles = membrane.rest().triangles.size();
     const NodalField rest = membrane.rest_positions();
     NodalField free = all_free(membrane);
@@ -295,7 +295,7 @@ TEST_CASE(
   const auto load = [&](Compression compression, double l_z) {
     MembraneMaterial material = latex;
     material.compression = compression;
-    const Membrane membrane(mesh, material);
+    const Membrane membrane(surface_of(mesh), material);
     const double l = 1.0 / std::sqrt(l_z);
     const NodalField x = moved(membrane.rest_positions(), [&](const Vec3& at_rest) {
       return Vec3(l * at_rest.x(), l * at_rest.y(), l_z * at_rest.z());

@@ -1,7 +1,7 @@
 /// Small solids with closed-form answers, for the tests of fem/.
 #pragma once
 
-#include "fem/solid/elastic_solid.h"
+#include "fem/dealii/elastic_solid.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>

@@ -162,7 +162,7 @@ TEST_CASE("A second Ctrl-C ends a run at once, and what was ignored stays ignore
           for (const int number : {SIGINT, SIGHUP}) std::signal(number, SIG_IGN);
           ignore_signals();
           for (const int number : {SIGINT, SIGHUP, SIGPIPE})
-            std::signal(number, SIG_DFL); // as PETSc does
+            std::signal(number, SIG_DFL); // as a library may
           ignore_signals_again();
           const Signals signals;
           for (const int number : {SIGINT, SIGHUP, SIGPIPE}) std::raise(number);

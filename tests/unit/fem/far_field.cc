@@ -1,6 +1,6 @@
 #include "fem/far_field/far_field.h"
 #include "fem/boundary_ids.h"
-#include "fem/far_field/far_field_mesh.h"
+#include "fem/dealii/far_field_mesh.h"
 #include "tests/support/catch.h"
 #include "tests/support/small_chamber.h"
 

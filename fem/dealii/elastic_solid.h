@@ -2,8 +2,8 @@
 /// (fem/README.md, Equations).
 #pragma once
 
+#include "fem/dealii/elasticity.h"
 #include "fem/solid/discrete_solid.h"
-#include "fem/solid/elasticity.h"
 
 #include <deal.II/base/point.h>
 #include <deal.II/dofs/dof_handler.h>

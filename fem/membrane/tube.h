@@ -1,14 +1,9 @@
-/// Meshes of membranes: triangles in space.
+/// The mesh of a membrane, and the tube around a specimen.
 #pragma once
 
 #include "fem/nodal.h"
 
 #include <array>
-
-namespace dealii {
-template <int dim, int spacedim>
-class Triangulation;
-}
 
 namespace mergel::fem {
 
@@ -19,10 +14,6 @@ struct SurfaceMesh {
   std::vector<Vec3> x; ///< [m]
   std::vector<SurfaceTriangle> triangles;
 };
-
-/// Those of a triangulation of triangles, both in its order.
-/// @throws std::invalid_argument when it has another kind of cell
-SurfaceMesh surface_of(const dealii::Triangulation<2, 3>& mesh);
 
 /// Upright tube about the axis z. Rows of nodes from z_bottom up, every second one turned by
 /// half a node distance: triangles are nearly equilateral, and their normals point inwards.
@@ -38,6 +29,5 @@ struct Tube {
   int node(int around, int row) const { return row * n_around + around % n_around; }
   double node_distance() const; ///< the largest [m]
 };
-void make_tube(const Tube& tube, dealii::Triangulation<2, 3>& mesh);
 
 } // namespace mergel::fem

@@ -1,4 +1,4 @@
-#include "fem/solid/output.h"
+#include "fem/dealii/output.h"
 
 #include <deal.II/fe/fe_dgq.h>
 #include <deal.II/lac/vector.h>

@@ -1,7 +1,7 @@
 /// Far-field results as VTK files for ParaView.
 #pragma once
 
-#include "fem/solid/elastic_solid.h"
+#include "fem/dealii/elastic_solid.h"
 
 #include <string>
 

@@ -1,15 +1,10 @@
-#include "fem/membrane/membrane_mesh.h"
+#include "fem/dealii/surface_mesh.h"
 
-#include <deal.II/grid/tria.h>
-
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 namespace mergel::fem {
-
-using std::numbers::pi;
 
 SurfaceMesh surface_of(const dealii::Triangulation<2, 3>& mesh)
 {
@@ -25,29 +20,12 @@ SurfaceMesh surface_of(const dealii::Triangulation<2, 3>& mesh)
   return surface;
 }
 
-Tube Tube::with_node_distance(double radius, double z_bottom, double height,
-                              double distance)
-{
-  const auto n = [](double length, double part) {
-    return static_cast<int>(std::lround(std::min(length / part, 1e6)));
-  };
-  return {radius, z_bottom, height, std::max(3, n(2.0 * pi * radius, distance)),
-          std::max(1, n(height, 0.5 * std::sqrt(3.0) * distance))};
-}
-
-double Tube::node_distance() const
-{
-  const double chord = 2.0 * radius * std::sin(pi / n_around), row = height / n_high,
-               half = 2.0 * radius * std::sin(0.5 * pi / n_around);
-  return std::max(chord, std::hypot(row, half));
-}
-
 void make_tube(const Tube& tube, dealii::Triangulation<2, 3>& mesh)
 {
   std::vector<dealii::Point<3>> x;
   for (int j = 0; j <= tube.n_high; ++j)
     for (int i = 0; i < tube.n_around; ++i) {
-      const double angle = 2.0 * pi * (i + 0.5 * (j % 2)) / tube.n_around;
+      const double angle = 2.0 * std::numbers::pi * (i + 0.5 * (j % 2)) / tube.n_around;
       x.emplace_back(tube.radius * std::cos(angle), tube.radius * std::sin(angle),
                      tube.z_bottom + tube.height * j / tube.n_high);
     }
@@ -68,6 +46,13 @@ void make_tube(const Tube& tube, dealii::Triangulation<2, 3>& mesh)
       add(below, before, above);
     }
   mesh.create_triangulation(x, cells, dealii::SubCellData());
+}
+
+SurfaceMesh tube_surface(const Tube& tube)
+{
+  dealii::Triangulation<2, 3> mesh;
+  make_tube(tube, mesh);
+  return surface_of(mesh);
 }
 
 } // namespace mergel::fem

@@ -1,4 +1,4 @@
-#include "fem/solid/elastic_solid.h"
+#include "fem/dealii/elastic_solid.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>

@@ -1,4 +1,4 @@
-#include "fem/far_field/far_field_mesh.h"
+#include "fem/dealii/far_field_mesh.h"
 
 #include "fem/boundary_ids.h"
 #include "fem/nodal.h"
@@ -18,16 +18,6 @@ namespace {
 
 using std::numbers::pi;
 using Point2 = Eigen::Vector2d;
-
-/// Number of cells that fill a length, at least one. The first has the given size, each
-/// further one `growth` times the size before.
-int n_graded(double length, double size, double growth)
-{
-  const double ratio = length / size;
-  const double n =
-      growth - 1.0 < 1e-6 ? ratio : std::log1p(ratio * (growth - 1.0)) / std::log(growth);
-  return std::max(1, static_cast<int>(std::lround(std::min(n, 1e6))));
-}
 
 /// Nodes 0 = s_0 < ... < s_n = 1 of a row of n cells, each `growth` times the size before.
 std::vector<double> graded(int n, double growth)
@@ -191,30 +181,6 @@ void set_boundary_ids(const FarFieldGeometry& g, dealii::Triangulation<3>& mesh)
 }
 
 } // namespace
-
-double FarFieldLayers::n_cells(Extent extent) const
-{
-  const double around = n_around;
-  const double core = around / 2.0 * (around / 4.0) + around * n_ring;
-  const double of_half = around * n_radial * (n_upper + n_lower) + core * n_lower;
-  return extent == Extent::full ? 2.0 * of_half : of_half;
-}
-
-FarFieldLayers layers(const FarFieldGeometry& g)
-{
-  const auto nearest = [](double cells) {
-    return static_cast<int>(std::lround(std::clamp(cells, 1.0, 1e6)));
-  };
-  FarFieldLayers n{};
-  const double around = pi * g.region_radius / g.cell_size;
-  n.n_around = std::max(8, 4 * nearest(around / 4.0));
-  // The rim of the core is at 0.6 to 0.72 R_d: about a third of R_d is left for the rings.
-  n.n_ring = nearest(n.n_around / (3.0 * pi));
-  n.n_radial = n_graded(g.chamber_radius - g.region_radius, g.cell_size, g.growth);
-  n.n_upper = nearest(g.region_height / g.cell_size);
-  n.n_lower = n_graded(g.chamber_height - g.region_height, g.cell_size, g.growth);
-  return n;
-}
 
 void make_far_field_mesh(const FarFieldGeometry& g, const FarFieldLayers& n,
                          dealii::Triangulation<3>& mesh)

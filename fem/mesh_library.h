@@ -1,0 +1,29 @@
+/// The part of fem/ that needs deal.II (fem/dealii), a shared library that is loaded when it is
+/// first used.
+///
+/// deal.II of Debian brings some 150 shared libraries, whose symbols take half a second of every
+/// start. Help, messages, and all jobs without a mesh start without it.
+#pragma once
+
+#include <memory>
+
+namespace mergel::fem {
+
+class FarFieldSolid;
+struct FarFieldSpec;
+struct SurfaceMesh;
+struct Tube;
+
+/// Its functions. They throw what their meshes and checks throw.
+struct MeshLibrary {
+  const char* build; ///< release, compiler and kind of build: that of the program
+  std::unique_ptr<FarFieldSolid> (*make_far_field)(const FarFieldSpec& spec);
+  SurfaceMesh (*make_tube)(const Tube& tube); ///< the triangles of Tube
+};
+
+/// Loads it at the first call, from the folder of the program or, installed, from lib/mergel
+/// beside bin. No two threads may make the first call together.
+/// @throws std::runtime_error when it is not found, cannot be loaded or is of another build
+const MeshLibrary& mesh_library();
+
+} // namespace mergel::fem
