@@ -13,6 +13,7 @@
 # seventh of the time); STRAIN, of their shearing, default "20 %"; SET, one more setting of all runs, such as
 # "Loading/wave stress=60 kPa".
 set -euo pipefail
+. "$(dirname "$0")/last_words.sh"
 [ $# -ge 2 ] || { sed -n '2,15s/^# \{0,1\}//p' "$0" >&2; exit 1; }
 cases=$(cd "$(dirname "$0")/../../apps/cases" && pwd)
 mergel=$(readlink -f "$1")
@@ -33,7 +34,7 @@ run() {
     mpirun -n "${RANKS:-2}" "$mergel" "$job" --restart "$name" >>"$name.log" 2>&1
   else
     mpirun -n "${RANKS:-2}" "$mergel" "$job" "$cases/$case.prm" "${settings[@]}" --output "$name" >"$name.log" 2>&1
-  fi || echo "$name: $(tail -1 "$name.log")"
+  fi || echo "$name: $(last_words "$name.log")"
 }
 
 # specimen SEED S [Z]: print its file; made if it does not exist

@@ -8,6 +8,7 @@
 # Environment: RANKS, default 2; WALLTIME, after which a run stops with a checkpoint, as in 50min; SET, one more
 # setting of all runs; UCS [MPa] of the rock, default 4.14 (README.md, first table).
 set -euo pipefail
+. "$(dirname "$0")/last_words.sh"
 [ $# -ge 2 ] || { sed -n '2,11s/^# \{0,1\}//p' "$0" >&2; exit 1; }
 case_file=$(cd "$(dirname "$0")/../../apps/cases" && pwd)/pile_paper.prm
 mergel=$(readlink -f "$1")
@@ -26,7 +27,7 @@ for seed in "$@"; do
   else
     mpirun --oversubscribe -n "${RANKS:-2}" "$mergel" pile "$case_file" --set "Specimen/seed=$seed" ${SET:+--set "$SET"} \
       --output "$out" "${stop[@]}" >"$out.log" 2>&1
-  fi || { echo "$out: $(tail -1 "$out.log")" >&2; continue; }
+  fi || { echo "$out: $(last_words "$out.log")" >&2; continue; }
 done
 
 # number FOLDER NAME: of summary.json; nothing where it has none.
