@@ -13,12 +13,15 @@ namespace {
 
 const std::string file_name = "libmergel_dealii.so";
 
-/// Where it may be, by the place of the program. Not by a run path: who looks for it there is the
-/// caller of dlopen, and that is another library where a sanitizer stands between.
+/// Where it may be, by the place of the program. dlopen would search the run path of the library
+/// that calls it, which under a sanitizer is the sanitizer's.
 std::vector<std::filesystem::path> places()
 {
   std::error_code error;
   const auto folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  if (error)
+    throw std::runtime_error("/proc/self/exe: cannot be read (" + error.message() +
+                             "): the program does not find its own folder.");
   return {folder / file_name,
           (folder / MERGEL_LIBRARY_FOLDER / file_name).lexically_normal()};
 }
@@ -32,17 +35,18 @@ MeshLibrary load()
     void* library = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (!library)
       throw std::runtime_error(
-          path.string() + ": cannot be loaded: " + dlerror() +
+          "the finite-element library cannot be loaded: " + std::string(dlerror()) +
           ". Are the libraries of deal.II those that it was built with?");
-    using Entry = MeshLibrary (*)();
-    const auto entry = reinterpret_cast<Entry>(dlsym(library, "mergel_mesh_library"));
-    const bool is_ours = entry && entry().build == std::string(MERGEL_BUILD);
-    if (!is_ours)
-      throw std::runtime_error(path.string() + ": is of " +
-                               (entry ? std::string(entry().build) : "another program") +
+    // Its name first: nothing else of another build may be called.
+    const auto build = reinterpret_cast<const char* (*)()>(dlsym(library, "mergel_build"));
+    const auto functions =
+        reinterpret_cast<MeshLibrary (*)()>(dlsym(library, "mergel_mesh_library"));
+    const std::string its_build = build && functions ? build() : "no build of mergel";
+    if (its_build != MERGEL_BUILD)
+      throw std::runtime_error(path.string() + ": is of " + its_build +
                                ", the program is of " + MERGEL_BUILD +
                                ". Build or install both together.");
-    return entry();
+    return functions();
   }
   throw std::runtime_error(
       "the finite-element library of the program is missing: there is no " +

@@ -16,14 +16,14 @@ struct Tube;
 
 /// Its functions. They throw what their meshes and checks throw.
 struct MeshLibrary {
-  const char* build; ///< release, compiler and kind of build: that of the program
   std::unique_ptr<FarFieldSolid> (*make_far_field)(const FarFieldSpec& spec);
   SurfaceMesh (*make_tube)(const Tube& tube); ///< the triangles of Tube
 };
 
 /// Loads it at the first call, from the folder of the program or, installed, from lib/mergel
-/// beside bin. No two threads may make the first call together.
-/// @throws std::runtime_error when it is not found, cannot be loaded or is of another build
+/// beside bin.
+/// @throws std::runtime_error when it is not found, cannot be loaded, or was compiled in another
+///         way or with other headers of fem/ than the program
 const MeshLibrary& mesh_library();
 
 } // namespace mergel::fem

@@ -1,7 +1,6 @@
 /// Reading a case: the values of its keys, and where each comes from.
 #include "apps/case/case_forms.h"
 #include "apps/case/case_keys.h"
-#include "apps/case/words.h"
 #include "dem/error.h"
 
 #include <system_error>

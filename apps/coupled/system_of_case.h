@@ -15,7 +15,7 @@ void load_mesh_library();
 
 /// The far field of a case, on all ranks of `comm`, which must outlive it. Sets in `c` the
 /// number of faces of its side, inside which the specimen is made.
-/// @throws std::invalid_argument as fem::FarField does
+/// @throws std::invalid_argument as fem::FarField does, CollectiveFailure as load_mesh_library()
 fem::FarField make_far_field(CoupledCase& c, MPI_Comm comm);
 
 /// A coupled system begins from these and a specimen, or continues from these and a state.

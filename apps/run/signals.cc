@@ -136,7 +136,7 @@ void ignore_signals()
 void ignore_signals_again()
 {
   for (const int number : {SIGUSR1, SIGXFSZ, SIGPIPE}) handle(number, SIG_IGN);
-  handle(SIGUSR2, SIG_DFL); // a library may call it an error of the program
+  handle(SIGUSR2, SIG_DFL); // a library may have taken it for an error
   if (are_interrupts_ignored) handle(SIGINT, SIG_IGN);
   if (are_hangups_ignored) handle(SIGHUP, SIG_IGN);
 }

@@ -339,6 +339,7 @@ std::vector<coupling::StructureSpec> structures(const TriaxialCase& c, MPI_Comm 
   const auto* top =
       add_platen("top", 0.0, -1.0, c.platens.seat == PlatenKeys::Seat::spherical);
   if (!c.membrane.is_there) return specs;
+  load_mesh_library();
   specs.push_back({"membrane",
                    std::make_unique<coupling::MembraneStructure>(
                        fem::make_membrane(c.tube, c.membrane.material, comm), c.tube,

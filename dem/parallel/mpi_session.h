@@ -7,14 +7,14 @@
 
 namespace mergel::dem {
 
-/// One per program, made first in main and destroyed last. Only the thread of main calls MPI.
+/// One per program, before its first call of MPI. Only the thread of main calls MPI.
 class MpiSession {
 public:
   /// Does not see the command line, which is the program's own.
   MpiSession()
   {
-    // Open MPI 4 starts a daemon for a program without launcher, which only MPI_Comm_spawn
-    // needs: half of the start.
+    // For a program without launcher Open MPI 4 starts a daemon. It serves MPI_Comm_spawn alone
+    // and takes half of the start.
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);

@@ -91,6 +91,10 @@ printf '#include "dem/planted.h"\n' >fem/planted.h
 fault "fem includes dem" 'fem/planted\.h'
 printf '#include <deal.II/base/tensor.h>\n' >dem/math/planted.h
 fault "dem includes deal.II" 'dem/math/planted\.h'
+printf '#include <deal.II/base/tensor.h>\n' >fem/planted.h
+fault "fem outside fem/dealii includes deal.II" 'fem/planted\.h'
+printf '#include <deal.II/base/tensor.h>\n' >apps/planted.h
+fault "apps includes deal.II" 'apps/planted\.h'
 
 printf '#include "dem/walls/mirror.h"\n' >dem/pairs/planted.h
 fault "a lower floor includes a higher one" 'dem/pairs/planted\.h'

@@ -7,6 +7,8 @@ programs=("$@")
 [ $# -gt 0 ] || programs=(dem_unit fem_tests apps_unit view_unit)
 build_sanitized "${programs[@]}" || failed "the unit tests do not compile"
 
+export DEAL_II_NUM_THREADS=1 # as in tests/CMakeLists.txt
+
 # A process a program: it starts once, and stops at the first thing that a sanitizer reports.
 run()
 {

@@ -1,5 +1,5 @@
 /// Options of the sanitizers in a build with MERGEL_SANITIZE. They are linked into every
-/// program, so that tests, scripts and the ranks of mpirun need no environment.
+/// program and library, so that tests, scripts and the ranks of mpirun need no environment.
 /// ASAN_OPTIONS, UBSAN_OPTIONS and LSAN_OPTIONS still override them.
 
 extern "C" {
