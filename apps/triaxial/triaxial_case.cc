@@ -2,6 +2,7 @@
 
 #include "apps/case/motion_keys.h"
 #include "apps/case/unusual.h"
+#include "apps/coupled/system_of_case.h"
 #include "dem/text.h"
 
 #include <algorithm>
