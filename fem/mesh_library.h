@@ -17,7 +17,7 @@ struct Tube;
 /// Its functions. They throw what their meshes and checks throw.
 struct MeshLibrary {
   std::unique_ptr<FarFieldSolid> (*make_far_field)(const FarFieldSpec& spec);
-  SurfaceMesh (*make_tube)(const Tube& tube); ///< the triangles of Tube
+  SurfaceMesh (*tube_surface)(const Tube& tube); ///< the triangles of Tube
 };
 
 /// Loads it at the first call, from the folder of the program or, installed, from lib/mergel

@@ -20,7 +20,7 @@ SurfaceMesh surface_of(const dealii::Triangulation<2, 3>& mesh)
   return surface;
 }
 
-void make_tube(const Tube& tube, dealii::Triangulation<2, 3>& mesh)
+SurfaceMesh tube_surface(const Tube& tube)
 {
   std::vector<dealii::Point<3>> x;
   for (int j = 0; j <= tube.n_high; ++j)
@@ -45,13 +45,8 @@ void make_tube(const Tube& tube, dealii::Triangulation<2, 3>& mesh)
       add(below, above, next);
       add(below, before, above);
     }
-  mesh.create_triangulation(x, cells, dealii::SubCellData());
-}
-
-SurfaceMesh tube_surface(const Tube& tube)
-{
   dealii::Triangulation<2, 3> mesh;
-  make_tube(tube, mesh);
+  mesh.create_triangulation(x, cells, dealii::SubCellData());
   return surface_of(mesh);
 }
 

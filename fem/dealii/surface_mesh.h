@@ -11,7 +11,7 @@ namespace mergel::fem {
 /// @throws std::invalid_argument when it has another kind of cell
 SurfaceMesh surface_of(const dealii::Triangulation<2, 3>& mesh);
 
-void make_tube(const Tube& tube, dealii::Triangulation<2, 3>& mesh);
+/// The triangles of Tube.
 SurfaceMesh tube_surface(const Tube& tube);
 
 } // namespace mergel::fem

@@ -253,7 +253,7 @@ Eigen::ArrayXd Membrane::stiffness_bound(const NodalField& x) const
 
 Membrane make_membrane(const Tube& tube, const MembraneMaterial& material, MPI_Comm comm)
 {
-  return Membrane(mesh_library().make_tube(tube), material, comm);
+  return Membrane(mesh_library().tube_surface(tube), material, comm);
 }
 
 } // namespace mergel::fem

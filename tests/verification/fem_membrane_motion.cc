@@ -20,7 +20,6 @@ const Tube tube{R, 0.0, 0.05, 16, 8};
 /// A tube around an elastic foundation, pressed on it by a rising outer pressure while both
 /// ends move: the lower one up, its nodes free around; the upper one down and sideways.
 struct PressedTube {
-  dealii::Triangulation<2, 3> mesh;
   std::unique_ptr<MembraneMotion> motion;
   NodalField rest;
   double k = 0.0; ///< of the foundation, at each node [N/m]
@@ -29,8 +28,7 @@ struct PressedTube {
 
   explicit PressedTube(double alpha)
   {
-    make_tube(tube, mesh);
-    Membrane membrane(surface_of(mesh), latex);
+    Membrane membrane = make_membrane(tube, latex);
     rest = membrane.rest_positions();
     k = 2e7 * 2.0 * pi * R * tube.height / tube.n_nodes(); // p_end moves it by R/50
     stable =
@@ -120,9 +118,7 @@ TEST_CASE("A pressed membrane balances its energy at any subcycle, with an error
 TEST_CASE("A pressure set before the first step acts in it and does the work p dV",
           "[verification][fem]")
 {
-  dealii::Triangulation<2, 3> mesh;
-  make_tube(tube, mesh);
-  Membrane membrane(surface_of(mesh), latex);
+  Membrane membrane = make_membrane(tube, latex);
   const NodalField rest = membrane.rest_positions();
   const Eigen::ArrayXd m = membrane.masses();
   NodalField f;

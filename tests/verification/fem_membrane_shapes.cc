@@ -101,9 +101,7 @@ struct ClosedCylinder {
   ClosedCylinder(double p, int n_around)
   {
     const Tube tube{R0, 0.0, 0.04, n_around, n_around / 4};
-    dealii::Triangulation<2, 3> mesh;
-    make_tube(tube, mesh);
-    Membrane membrane(surface_of(mesh), latex);
+    Membrane membrane = make_membrane(tube, latex);
     const auto forces = [&](const NodalField& x, NodalField& f) {
       membrane.forces(x, -p, f); // normals inwards
       const EnclosedVolume v = membrane.enclosed(x, tube);
@@ -290,12 +288,10 @@ TEST_CASE(
 {
   const Tube tube = Tube::with_node_distance(0.025, 0.0, 0.1, 0.002);
   const double D = 2.0 * tube.radius, unit = mu * t0 / tube.radius;
-  dealii::Triangulation<2, 3> mesh;
-  make_tube(tube, mesh);
   const auto load = [&](Compression compression, double l_z) {
     MembraneMaterial material = latex;
     material.compression = compression;
-    const Membrane membrane(surface_of(mesh), material);
+    const Membrane membrane = make_membrane(tube, material);
     const double l = 1.0 / std::sqrt(l_z);
     const NodalField x = moved(membrane.rest_positions(), [&](const Vec3& at_rest) {
       return Vec3(l * at_rest.x(), l * at_rest.y(), l_z * at_rest.z());
